@@ -29,6 +29,17 @@ constexpr std::size_t kBatch = 1U << 16;
 // Small pieces, so that a file keeps a receiver's pace.
 constexpr std::size_t kPiece = 256;
 
+using Header = std::array<std::uint8_t, kHeaderBytes>;
+
+Header header_of(std::int64_t arrival_ns, std::size_t length) {
+  Header header;
+  for (std::size_t i = 0; i < 8; ++i) {
+    header[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(arrival_ns) >> (8 * i));
+  }
+  for (std::size_t i = 0; i < 4; ++i) header[8 + i] = static_cast<std::uint8_t>(length >> (8 * i));
+  return header;
+}
+
 // Returns the open file; nullptr: it cannot be opened, and errno says why. Reading waits in the one
 // thread of all streams, so that only a regular file may be read, whose bytes are there. O_NONBLOCK
 // keeps a named pipe from waiting for its writer before it can be refused.
@@ -121,14 +132,7 @@ void RecordingWriter::start(std::FILE* file) {
 }
 
 bool RecordingWriter::write(std::int64_t arrival_ns, std::span<const std::uint8_t> bytes) {
-  std::array<std::uint8_t, kHeaderBytes> header;
-  for (std::size_t i = 0; i < 8; ++i) {
-    header[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(arrival_ns) >> (8 * i));
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    header[8 + i] = static_cast<std::uint8_t>(bytes.size() >> (8 * i));
-  }
-  const std::size_t size = header.size() + bytes.size();
+  const std::size_t size = (opening_is_due_ ? 2 : 1) * kHeaderBytes + bytes.size();
   const std::lock_guard lock(state_->mutex);
   if (limits_.file_bytes > 0 && accepted_bytes_ + size > limits_.file_bytes) {
     if (state_->problem.empty()) state_->problem = "has reached its limit, 'record_limit_mb'";
@@ -139,7 +143,12 @@ bool RecordingWriter::write(std::int64_t arrival_ns, std::span<const std::uint8_
     return true;
   }
   accepted_bytes_ += size;
-  state_->queue.insert(state_->queue.end(), header.begin(), header.end());
+  const auto queue_header = [&](std::size_t length) {
+    const Header header = header_of(arrival_ns, length);
+    state_->queue.insert(state_->queue.end(), header.begin(), header.end());
+  };
+  if (std::exchange(opening_is_due_, false)) queue_header(0);
+  queue_header(bytes.size());
   state_->queue.insert(state_->queue.end(), bytes.begin(), bytes.end());
   if (state_->queue.size() >= kBatch) state_->wake.notify_one();
   return true;

@@ -35,9 +35,12 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
+  // A connection has begun: the next block that finds room comes behind one without bytes, which
+  // has the same arrival, so that a recording has one order of times whatever the source's clock
+  // is.
+  void note_opening() { opening_is_due_ = true; }
   // They wait for nothing, and return false once writing has failed; error() then says why.
   bool write(std::int64_t arrival_ns, std::span<const std::uint8_t> bytes);
-  bool write_opening(std::int64_t arrival_ns) { return write(arrival_ns, {}); }
   bool flush();
   // Nothing more will be written: what is queued goes to the file, which is then closed.
   void end();
@@ -61,6 +64,7 @@ class RecordingWriter {
   std::string path_;
   RecordingLimits limits_;
   std::uint64_t accepted_bytes_ = 0, dropped_bytes_ = 0;
+  bool opening_is_due_ = false;
   std::shared_ptr<State> state_;  // shared with the thread, which a stalled disk may hold for long
 };
 

@@ -1,11 +1,20 @@
 """What tests of a running program share: a network namespace of their own, and an end with a reason."""
 import os
+import pathlib
 import subprocess
 import sys
 
 
 def fail(text):
     sys.exit(f"FAILED: {text}")
+
+
+def require_log_thread(process):
+    """The program writes its log in a thread of its own, so that nobody who reads it holds up the others."""
+    tasks = pathlib.Path(f"/proc/{process.pid}/task")
+    names = [(task / "comm").read_text(encoding="ascii").strip() for task in tasks.iterdir()]
+    if "leonav-log" not in names:
+        fail(f"no thread writes the log; there are {names}")
 
 
 def namespace_command():

@@ -102,6 +102,23 @@ bool lacks_antenna_models(const ConnectConfig& config, const FileProducts& produ
          std::none_of(products.antennas.begin(), products.antennas.end(), is_of_satellite);
 }
 
+// Where another program sends the orbits of a system, or nobody uses it, none is missing.
+void read_expected_orbits(ConfigReader& root, ExpectedOrbits* expected) {
+  std::vector<std::string> names;
+  for (const System system : kSystems) {
+    if ((*expected)[index_of(system)]) names.emplace_back(to_string(system));
+  }
+  if (!root.list("warn_without_ephemerides", &names, "list of gps, galileo, beidou")) return;
+  expected->fill(false);
+  for (const std::string& name : names) {
+    const auto system = system_from_string(name);
+    if (!system || *system == System::kLeo) {
+      root.fail("warn_without_ephemerides", "'" + name + "' is not one of gps, galileo, beidou");
+    }
+    (*expected)[index_of(*system)] = true;
+  }
+}
+
 }  // namespace
 
 bool has_only_files(const ConnectConfig& config) {
@@ -159,6 +176,7 @@ ConnectConfig load_connect_config(const std::string& path,
       read_correction_files(group, {folder, &source.errors}, products.get());
     });
     read_leo_files(root, {folder, &source.errors}, products.get());
+    read_expected_orbits(root, &config.expected_orbits);
     root.number("playback_speed", {0.01, 1000.0}, &config.playback_speed);
     root.number("status_interval_s", {0.0, 3600.0}, &config.status_interval_s);
     root.groups("streams", [&](ConfigReader& group) {

@@ -9,6 +9,7 @@
 #include "drivers/imu_line/line_layout.h"
 #include "drivers/oem7/imu_scale.h"
 #include "drivers/ssr/correction_store.h"
+#include "tools/connect/formats/outputs/known_orbits.h"
 #include "tools/connect/formats/outputs/product_output.h"
 #include "tools/connect/formats/receivers/ubx_options.h"
 #include "tools/connect/source_options.h"
@@ -64,6 +65,7 @@ struct ConnectConfig {
   CorrectionOptions corrections;
   ServiceChoiceOptions services;
   std::shared_ptr<const FileProducts> products = std::make_shared<FileProducts>();
+  ExpectedOrbits expected_orbits = expected_by_default();  // else a stream says what is missing
   double status_interval_s = 10.0;  // of the text for each stream; 0: only changes
   std::vector<StreamConfig> streams;
 };

@@ -79,6 +79,7 @@ struct Connector::State {
         clocks(config.playback_speed, &clock),
         signals(io, SIGTERM, SIGINT),
         second(io) {
+    output.expect_orbits(config.expected_orbits);
     output.listen_to_time([this](GpsTime time) { products.send_due(time); });
     corrections.on_biases = [this](std::span<const SignalBias> biases) {
       products.yield_to(biases);

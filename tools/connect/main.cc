@@ -54,6 +54,7 @@ int connect_main(int argc, char** argv) {
     spdlog::info("{}: good, {} streams", path, config.streams.size());
     return 0;
   }
+  start_log_thread();  // the one thread of all streams waits for no reader of the log
   return Connector(config).run() == ConnectorEnd::kFailed ? kExitFailure : 0;
 }
 

@@ -49,25 +49,15 @@ void Stream::finish() {
 void Stream::on_open() {
   watch_.on_open(clock_->now_ns());
   format_->on_open();
-  opening_is_due_ = true;
+  if (recording_) recording_->note_opening();
   told_failure_.clear();
   spdlog::info("{}: {} is open", name_, source_text_);
 }
 
 void Stream::on_bytes(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
-  if (is_recording_) record(bytes, arrival_ns);
+  if (is_recording_ && !recording_->write(arrival_ns, bytes)) tell_recording_error();
   watch_.on_bytes(bytes.size(), clock_->now_ns());
   format_->feed(bytes, arrival_ns);
-}
-
-// The beginning of a connection has the time of its first bytes, so that a recording has one order
-// of times whatever the source's clock is.
-void Stream::record(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
-  const bool is_opening = std::exchange(opening_is_due_, false);
-  if ((is_opening && !recording_->write_opening(arrival_ns)) ||
-      !recording_->write(arrival_ns, bytes)) {
-    tell_recording_error();
-  }
 }
 
 void Stream::on_waiting(const std::string& what) {

@@ -44,7 +44,6 @@ class Stream final : public ByteSink {
   void on_end(const std::string& why) override;
   std::optional<DataTime> data_time() const override { return format_->data_time(); }
   void tell_news();
-  void record(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns);
   void look_at_recording();
   void tell_recording_error();
 
@@ -56,7 +55,6 @@ class Stream final : public ByteSink {
   double reconnect_after_s_;
   std::unique_ptr<RecordingWriter> recording_;
   bool is_recording_ = false;       // it has not ended
-  bool opening_is_due_ = false;     // a connection has begun and brought nothing yet
   bool limit_is_told_ = false;      // that it is near
   std::uint64_t told_dropped_ = 0;  // bytes that the recording lacks
   StreamState told_ = StreamState::kConnecting;

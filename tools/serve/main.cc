@@ -84,6 +84,7 @@ int serve_main(int argc, char** argv) {
     spdlog::info("{}: good", path.empty() ? "the command line" : path);
     return 0;
   }
+  start_log_thread();  // the one thread of all clients waits for no reader of the log
   return Server(config).run() ? 0 : kExitFailure;
 }
 

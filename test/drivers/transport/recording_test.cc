@@ -168,6 +168,28 @@ TEST_CASE("A disk that takes nothing holds nobody up, and costs whole blocks", "
   CHECK(written.size() == first_line + (2000 - dropped / kBlock) * (kBlock + header));
 }
 
+TEST_CASE("The beginning of a connection is kept until a block finds room", "[transport]") {
+  const test::TemporaryFile place("unused", "");
+  const std::string path = place.beside("a.leoraw");
+  {
+    // Too little room for a block of 100 bytes, whatever is queued.
+    RecordingWriter writer(path, {.queued_bytes = 80});
+    writer.note_opening();
+    REQUIRE(writer.write(1'000'000'000, Bytes(100, 1)));
+    CHECK(writer.dropped_bytes() == 100);
+    REQUIRE(writer.write(1'001'000'000, Bytes{2, 3}));
+    REQUIRE(writer.close());
+  }
+  BlockReader reader(path);
+  BlockReader::Block block;
+  for (const Bytes& bytes : {Bytes{}, Bytes{2, 3}}) {
+    REQUIRE(reader.next(&block));
+    CHECK(block.arrival_ns == 1'001'000'000);
+    CHECK(block.bytes == bytes);
+  }
+  CHECK_FALSE(reader.next(&block));
+}
+
 TEST_CASE("A disk that never takes anything again is given up at the end", "[transport]") {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
@@ -290,10 +312,10 @@ TEST_CASE("A recording knows where a connection began, and so does who plays it"
   const std::string path = place.beside("a.leoraw");
   {
     RecordingWriter writer(path);
-    REQUIRE(writer.write_opening(1'000'000'000));
+    writer.note_opening();
     REQUIRE(writer.write(1'000'000'000, Bytes{1, 2, 3}));
     REQUIRE(writer.write(1'001'000'000, Bytes{4}));
-    REQUIRE(writer.write_opening(1'002'000'000));
+    writer.note_opening();
     REQUIRE(writer.write(1'002'000'000, Bytes{5}));
     REQUIRE(writer.close());
   }

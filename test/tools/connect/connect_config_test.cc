@@ -69,6 +69,20 @@ TEST_CASE("Every block of YAML in the pages of receivers and streams is a whole 
   }
 }
 
+TEST_CASE("Systems of which no ephemeris is missed are left out of a list, or all of them",
+          "[connect]") {
+  const std::string one = stream("name: a, source: stdin, format: ubx");
+  CHECK(load(one).expected_orbits == ExpectedOrbits{true, true, true, false});
+  const auto expected = [&](const std::string& list) {
+    return load("warn_without_ephemerides: " + list + "\n" + one).expected_orbits;
+  };
+  CHECK(expected("[beidou, gps]") == ExpectedOrbits{true, false, true, false});
+  CHECK(expected("[]") == ExpectedOrbits{});
+  for (const char* wrong : {"[leo]", "[glonass]", "gps"}) {
+    CHECK_THROWS_WITH(expected(wrong), Catch::Contains("warn_without_ephemerides"));
+  }
+}
+
 TEST_CASE("RTCM 3 from a file needs the day of its recording", "[connect]") {
   const ConnectConfig config =
       load(stream("name: base, source: file, path: a.rtcm3, format: rtcm3, date: 2024-03-20"));

@@ -20,7 +20,7 @@ ROOT = HERE.parents[2]
 sys.path += [str(HERE.parent), str(ROOT / "test/drivers/transport")]
 import caster  # noqa: E402
 import ubx_bytes  # noqa: E402
-from live_program import enter_namespace, fail  # noqa: E402
+from live_program import enter_namespace, fail, require_log_thread  # noqa: E402
 
 
 def wait_for(what, done):
@@ -147,14 +147,14 @@ def udp(work):
 
 
 def without_ephemerides(work):
-    """Ninety seconds of a receiver whose UBX-RXM-SFRBX is not switched on."""
+    """Three minutes of a receiver whose UBX-RXM-SFRBX is not switched on."""
     begin, locks = 1432000000, {}
     seen = {name: {"C1C": (2.3e7, " "), "S1C": (45.0, " ")} for name in ("G01", "G02", "E01", "E02", "E03")}
-    (work / "epochs.ubx").write_bytes(b"".join(ubx_bytes.rawx((begin + second, 0.0), seen, locks) for second in range(90)))
+    (work / "epochs.ubx").write_bytes(b"".join(ubx_bytes.rawx((begin + second, 0.0), seen, locks) for second in range(180)))
     config = work / "silent.yaml"
     config.write_text("playback_speed: 100\nstreams:\n  - {name: receiver, source: file, path: epochs.ubx, format: ubx}\n")
     done = subprocess.run([BIN / "leonav-connect", config], stderr=subprocess.PIPE, check=True, timeout=60, text=True)
-    told = "warning: receiver: 2 GPS and 3 Galileo satellites without an ephemeris: switch UBX-RXM-SFRBX on for this port of the receiver\n"
+    told = "warning: receiver: 2 GPS and 3 Galileo satellites without an ephemeris: switch UBX-RXM-SFRBX on for this port of the receiver (unless another program sends their orbits: warn_without_ephemerides)\n"
     if done.stderr.count(told) != 1:
         fail(f"ephemerides that are missing are not told once: {done.stderr}")
     print("a receiver without ephemerides: told once")
@@ -168,6 +168,7 @@ def service_manager(work):
         run = Run(work, "notified", f"source: udp, port: {free_port(socket.SOCK_DGRAM)}", NOTIFY_SOCKET=str(work / "notify"), WATCHDOG_USEC="10000000")
         heard = [manager.recv(100) for _ in range(3)]
         run.says("running; LCM")
+        require_log_thread(run.process)
         run.finish()
         manager.settimeout(0)
         try:

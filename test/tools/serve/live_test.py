@@ -23,7 +23,7 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path.append(str(HERE.parent))
-from live_program import enter_namespace, fail  # noqa: E402
+from live_program import enter_namespace, fail, require_log_thread  # noqa: E402
 
 PORT, RATE, INSTANTS = 10110, 20, 2000
 GPS_EPOCH = datetime.datetime(1980, 1, 6)
@@ -156,6 +156,7 @@ def run(work, types, text):
         if "running" in (work / "serve.txt").read_text(encoding="utf-8"):
             break
         time.sleep(0.1)
+    require_log_thread(process)
     fast = [Reader(connect().recv) for _ in range(3)]
     leaver, slow = connect(), connect(small=True)
     terminal = os.open(link, os.O_RDWR | os.O_NOCTTY)

@@ -20,6 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path += [str(ROOT / folder) for folder in ("test/tools", "test/tools/connect", "test/support/python")]
 sys.dont_write_bytecode = True
 from live_program import enter_namespace  # noqa: E402
+import lcm_log  # noqa: E402
 import rtcm3_bytes  # noqa: E402
 from navigation_file import records  # noqa: E402
 from ubx_bytes import epochs  # noqa: E402
@@ -66,7 +67,15 @@ def stream(observations, navigation, ssr):
     return b"".join(out)
 
 
-def capture(bin_dir, folder, name, date, products):
+def tell(folder, name, epochs_sent):
+    """Prints how many epochs the log has, of how many in the file, and which corrections were not used."""
+    logged = sum(channel.endswith("GNSS_EPOCH") for _, channel, _ in lcm_log.messages(folder / f"{name}.lcmlog"))
+    last = [line for line in (folder / f"{name}.txt").read_text(encoding="utf-8").splitlines() if "corrections of" in line][-1:]
+    unused = last[0].partition("not used since the start: ")[2] if last else ""
+    print(f"{name}: {logged} epochs of {epochs_sent}; corrections not used: {unused or 'none'}")
+
+
+def capture(bin_dir, folder, name, date, products, epochs_sent):
     (folder / f"{name}.yaml").write_text(
         f"playback_speed: 1000\ncorrections:\n  point: mass_centre\n{products}"
         f"streams:\n  - {{name: station, source: file, path: station.rtcm3, format: rtcm3, date: {date}}}\n", encoding="utf-8")
@@ -79,6 +88,8 @@ def capture(bin_dir, folder, name, date, products):
     time.sleep(1)
     logger.send_signal(signal.SIGTERM)
     logger.wait(timeout=30)
+    if status == 0:
+        tell(folder, name, epochs_sent)
     if status != 0:
         print((folder / f"{name}.txt").read_text(encoding="utf-8"), file=sys.stderr)
         sys.exit(f"ssr_live.py: leonav-connect ended with {status}")
@@ -93,9 +104,10 @@ def main():
     enter_namespace()
     bin_dir, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     observations, navigation, ssr, date, models, antenna = sys.argv[3:]
+    epochs_sent = sum(1 for _ in epochs(observations))
     (folder / "station.rtcm3").write_bytes(stream(observations, navigation, ssr))
-    capture(bin_dir, folder, "live", date, f'  antenna_models: "{models}"\n  receiver_antenna: "{antenna}"\n')
-    capture(bin_dir, folder, "live_without", date, "")
+    capture(bin_dir, folder, "live", date, f'  antenna_models: "{models}"\n  receiver_antenna: "{antenna}"\n', epochs_sent)
+    capture(bin_dir, folder, "live_without", date, "", epochs_sent)
 
 
 if __name__ == "__main__":

@@ -74,6 +74,8 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* p, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* __libc_valloc(std::size_t size);
+void* __libc_pvalloc(std::size_t size);
 
 void* malloc(std::size_t size) {
   note();
@@ -86,6 +88,26 @@ void* calloc(std::size_t count, std::size_t size) {
 void* realloc(void* p, std::size_t size) {
   note();
   return __libc_realloc(p, size);
+}
+void* reallocarray(void* p, std::size_t count, std::size_t size) {
+  std::size_t bytes = 0;
+  if (__builtin_mul_overflow(count, size, &bytes)) {
+    errno = ENOMEM;
+    return nullptr;
+  }
+  return realloc(p, bytes);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  note();
+  return __libc_memalign(alignment, size);
+}
+void* valloc(std::size_t size) {
+  note();
+  return __libc_valloc(size);
+}
+void* pvalloc(std::size_t size) {
+  note();
+  return __libc_pvalloc(size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   note();

@@ -26,27 +26,34 @@ void EphemerisMonitor::on_epoch(const RawEpoch& epoch) {
   if (remedy_ == nullptr) return;
   std::set<SatelliteId> observed;
   for (const SignalObservation& o : epoch.observations) observed.insert(o.satellite);
-  for (OfSystem& system : systems_) system.satellites = 0;
-  for (const SatelliteId satellite : observed) ++systems_[index_of(satellite.system)].satellites;
-  for (const System system : kSystems) look_at(system, epoch.time);
+  std::array<std::size_t, kSystemCount> satellites = {};
+  for (const SatelliteId satellite : observed) ++satellites[index_of(satellite.system)];
+  for (const System system : kSystems) look_at(system, satellites[index_of(system)], epoch.time);
 }
 
-void EphemerisMonitor::look_at(System system, GpsTime time) {
+void EphemerisMonitor::look_at(System system, std::size_t satellites, GpsTime time) {
   OfSystem& s = systems_[index_of(system)];
-  // LEO satellites broadcast no ephemeris that a receiver's format holds.
-  if (system == System::kLeo || orbits_->has_any(system, time)) {
-    s.since = {};
-    s.is_told = false;
-  } else if (s.satellites > 0 && !s.since.is_set()) {
-    s.since = time;
+  const bool was_observed = s.satellites > 0;
+  s.satellites = satellites;
+  if (!orbits_->is_expected(system) || orbits_->has_any(system, time)) {
+    s = OfSystem();
+    s.satellites = satellites;
+  } else if (s.observed.is_set()) {
+    const double apart_s = seconds_between(time, s.observed);
+    if (apart_s > kLongestInterval_s) {
+      s.waited_s = 0.0;
+    } else if (was_observed && satellites > 0) {
+      s.waited_s += apart_s;
+    }
   }
-  s.is_without =
-      s.satellites > 0 && s.since.is_set() && seconds_between(time, s.since) >= kPatience_s;
+  if (satellites > 0) s.observed = time;
+  s.is_without = satellites > 0 && s.waited_s >= kPatience_s;
 }
 
 void EphemerisMonitor::start_over() {
   for (OfSystem& system : systems_) {
-    system.since = {};
+    system.observed = {};
+    system.waited_s = 0.0;
     system.is_without = false;
   }
 }
@@ -66,6 +73,10 @@ std::string EphemerisMonitor::text() const {
   for (const std::string_view remedy : remedies) {
     text += (text.empty() ? "" : "; ") + enumerated(satellites[remedy]) +
             " satellites without an ephemeris: " + std::string(remedy);
+  }
+  // Nothing here sees what others send to leonavd.
+  if (!text.empty()) {
+    text += " (unless another program sends their orbits: warn_without_ephemerides)";
   }
   return text;
 }

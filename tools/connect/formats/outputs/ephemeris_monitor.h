@@ -16,9 +16,13 @@ class EphemerisMonitor {
  public:
   // Returns what to switch on in the receiver to get the ephemerides of a system.
   using Remedy = const char* (*)(System);
-  // So long, by the time of the epochs, satellites are observed before a system is told: each sends
-  // its ephemeris every 30 s, BeiDou's geostationary ones too.
-  static constexpr double kPatience_s = 60.0;
+  // So long, by the time of the epochs, satellites are observed before a system is told. Galileo's
+  // F/NAV needs 50 s for an ephemeris, twice that if a page is lost; senders of RTCM 3 may pause
+  // for two minutes.
+  static constexpr double kPatience_s = 150.0;
+  // Epochs that are further apart are a pause, which does not count. After such a pause, as of an
+  // antenna without a sky, systems are waited for anew.
+  static constexpr double kLongestInterval_s = 60.0;
 
   // `orbits`, of all streams, must outlive this object. nullptr as `remedy`: nothing is ever told.
   EphemerisMonitor(const KnownOrbits* orbits, Remedy remedy) : orbits_(orbits), remedy_(remedy) {}
@@ -35,11 +39,12 @@ class EphemerisMonitor {
  private:
   struct OfSystem {
     std::size_t satellites = 0;  // in the last epoch
-    GpsTime since;               // when the first ones without an ephemeris were observed
+    GpsTime observed;            // time of the last epoch with satellites
+    double waited_s = 0.0;       // while they were observed without an ephemeris
     bool is_without = false;     // for kPatience_s, and they still are
     bool is_told = false;
   };
-  void look_at(System system, GpsTime time);
+  void look_at(System system, std::size_t satellites, GpsTime time);
 
   const KnownOrbits* orbits_;
   Remedy remedy_;

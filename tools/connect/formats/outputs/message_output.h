@@ -37,6 +37,8 @@ class MessageOutput {
   // `listener` is told each of these times.
   void listen_to_time(std::function<void(GpsTime)> listener) { on_time_ = std::move(listener); }
 
+  // Of which systems somebody is to be told that orbits are missing.
+  void expect_orbits(const ExpectedOrbits& systems) { orbits_.expect(systems); }
   // Takes note of an ephemeris or a state that was sent, with its reference time.
   void note_orbit(SatelliteId satellite, GpsTime reference) { orbits_.note(satellite, reference); }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 
 namespace leonav {
@@ -11,16 +10,21 @@ namespace {
 // The kinds of contents in Key.
 constexpr std::size_t kEphemeris = 0, kIonosphere = 1, kDelays = 2;
 
-bool is_old(GpsTime reference, GpsTime now) {
-  return std::abs(seconds_between(now, reference)) > NavigationRepeater::kMaxAge_s;
+bool is_near(GpsTime reference, GpsTime now, double max_age_s) {
+  return std::abs(seconds_between(now, reference)) <= max_age_s;
 }
 
-// Drops what is too old, and returns whether nothing is left.
-bool drop_old(const Ephemeris& ephemeris, GpsTime now) { return is_old(ephemeris.toe, now); }
-bool drop_old(const KlobucharModel&, GpsTime) { return false; }
-bool drop_old(std::vector<SignalBias>& biases, GpsTime now) {
-  std::erase_if(biases, [now](const SignalBias& bias) { return is_old(bias.time, now); });
-  return biases.empty();
+// Whether it can serve at that time, of biases whether any can.
+bool can_serve(const Ephemeris& ephemeris, GpsTime now) {
+  return is_near(ephemeris.toe, now, max_orbit_age_s(ephemeris.satellite.system));
+}
+bool can_serve(const KlobucharModel&, GpsTime) { return true; }
+bool can_serve(const SignalBias& bias, GpsTime now) {
+  return is_near(bias.time, now, NavigationRepeater::kMaxDelayAge_s);
+}
+bool can_serve(const std::vector<SignalBias>& biases, GpsTime now) {
+  return std::any_of(biases.begin(), biases.end(),
+                     [now](const SignalBias& bias) { return can_serve(bias, now); });
 }
 
 }  // namespace
@@ -50,18 +54,15 @@ void NavigationRepeater::remember(const std::vector<SignalBias>& of_satellite, G
 }
 
 int NavigationRepeater::repeat(GpsTime now) {
-  for (auto one = sent_.begin(); one != sent_.end();) {
-    const bool is_empty =
-        std::visit([now](auto& content) { return drop_old(content, now); }, one->second.content);
-    one = is_empty ? sent_.erase(one) : std::next(one);
-  }
   // A receiver whose time was set back must not silence what it sent before.
   const auto waited_s = [now](const Sent* sent) {
     return std::abs(seconds_between(now, sent->last));
   };
   std::vector<Sent*> due;
   for (auto& [key, sent] : sent_) {
-    if (waited_s(&sent) >= interval_s_) due.push_back(&sent);
+    const bool serves =
+        std::visit([now](const auto& one) { return can_serve(one, now); }, sent.content);
+    if (serves && waited_s(&sent) >= interval_s_) due.push_back(&sent);
   }
   std::stable_sort(due.begin(), due.end(),
                    [&waited_s](const Sent* a, const Sent* b) { return waited_s(a) > waited_s(b); });
@@ -79,7 +80,9 @@ void NavigationRepeater::send(const Content& content, GpsTime now) {
   } else if (const auto* model = std::get_if<kIonosphere>(&content)) {
     output_->send(*model, now);
   } else {
-    output_->send(std::span<const SignalBias>(std::get<kDelays>(content)));
+    std::vector<SignalBias> biases = std::get<kDelays>(content);
+    std::erase_if(biases, [now](const SignalBias& bias) { return !can_serve(bias, now); });
+    output_->send(std::span<const SignalBias>(biases));
   }
 }
 

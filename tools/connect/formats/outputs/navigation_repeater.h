@@ -16,9 +16,10 @@ namespace leonav {
 // coefficients of the ionosphere and the group delays; LCM keeps nothing and may lose it.
 class NavigationRepeater {
  public:
-  // Of an ephemeris against its reference time, of group delays since they were received; then they
-  // are dropped. The ionosphere has no such limit: its coefficients change every few days.
-  static constexpr double kMaxAge_s = KnownOrbits::kMaxAge_s;
+  // Group delays are sent for so long after they were received, an ephemeris as long as leonavd
+  // uses it (max_orbit_age_s). The ionosphere has no such limit: its coefficients change every few
+  // days. What is too old is kept, for an epoch's time may be wrong; newer contents take its place.
+  static constexpr double kMaxDelayAge_s = 4 * 3600.0;
   // At each epoch: all at once could find no room in the receiving socket. Those that wait longest
   // come first.
   static constexpr std::size_t kMostAtOnce = 4;

@@ -40,7 +40,7 @@ void ReceiverOutput::repeat_navigation(GpsTime now) {
   messages_ += static_cast<std::uint64_t>(repeater_.repeat(now));
 }
 
-void ReceiverOutput::send(const Ephemeris& ephemeris) {
+void ReceiverOutput::send(const Ephemeris& ephemeris, GpsTime received) {
   Ephemeris sent = ephemeris;
   sent.transmission_time = transmission_time(ephemeris);
   if (is_for_corrections_alone(sent)) {
@@ -50,7 +50,8 @@ void ReceiverOutput::send(const Ephemeris& ephemeris) {
   output_->send(sent);
   output_->note_orbit(sent.satellite, sent.toe);
   if (corrections_ != nullptr) corrections_->add(sent);
-  repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : sent.transmission_time);
+  if (!received.is_set()) received = sent.transmission_time;
+  repeater_.remember(sent, last_epoch_.is_set() ? last_epoch_ : received);
   ++messages_;
   ++ephemerides_;
 }

@@ -32,8 +32,9 @@ class ReceiverOutput {
   // Publishes an epoch whose last byte arrived at `arrival_ns` of the ArrivalClock. `has_own_week`:
   // its week comes from the receiver, and not from the host's clock.
   void send(const RawEpoch& epoch, std::int64_t arrival_ns, bool has_own_week = true);
-  // Elements for corrections alone are not published.
-  void send(const Ephemeris& ephemeris);
+  // Elements for corrections alone are not published. `received`, of a stream without epochs: when
+  // it came, if that is known.
+  void send(const Ephemeris& ephemeris, GpsTime received = {});
   // `received`: GPS time.
   void send(const KlobucharModel& model, GpsTime received);
   // Of one satellite.

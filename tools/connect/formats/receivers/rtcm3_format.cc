@@ -6,6 +6,14 @@
 #include "tools/common/format.h"
 
 namespace leonav {
+namespace {
+
+// A list of messages that are not used is cut there.
+constexpr std::size_t kLongestList = 120;
+// So many numbers are told: noise that passes for messages can have any of 4096.
+constexpr std::size_t kMostUnused = 40;
+
+}  // namespace
 
 void Rtcm3Format::feed(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
   arrival_ns_ = arrival_ns;
@@ -37,7 +45,20 @@ void Rtcm3Format::on_epoch(const RawEpoch& epoch) {
     receiver_.send(epoch, arrival_ns_, false);
   }
 }
-void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) { receiver_.send(ephemeris); }
+void Rtcm3Format::on_ephemeris(const Ephemeris& ephemeris) {
+  receiver_.send(ephemeris, service_time());
+}
+
+// It comes with each valid ephemeris, also with one that came before.
+void Rtcm3Format::on_stated_toe(GpsTime time) {
+  clock_->confirm_host(time, arrival_ns_);
+  if (const GpsTime now = service_time(); now.is_set()) receiver_.repeat_navigation(now);
+}
+
+// Observations of a service are not used, and so nothing depends on where they were made.
+void Rtcm3Format::on_station_position(const StationPosition& position) {
+  if (!is_service_) station_.take(position);
+}
 
 void Rtcm3Format::on_ssr(const SsrMessage& message) {
   if (corrections_ == nullptr) return;
@@ -52,6 +73,10 @@ GpsTime Rtcm3Format::time_of_arrival(GpsTime of_message) const {
   if (!is_live_) return of_message;
   if (const auto time = clock_->at(arrival_ns_)) return *time;
   return clock_->by_host(arrival_ns_);
+}
+
+GpsTime Rtcm3Format::service_time() const {
+  return is_service_ && is_live_ ? time_of_arrival({}) : GpsTime();
 }
 
 std::optional<DataTime> Rtcm3Format::data_time() const {
@@ -113,11 +138,18 @@ std::vector<FormatNews> Rtcm3Format::take_news() {
   return news;
 }
 
-// Each number once.
+// Each number once; what is cut off the list comes at the next call.
 std::string Rtcm3Format::unused_news() {
   std::string text;
   for (const auto& [number, count] : decoder_.counters().unused) {
-    if (!told_unused_.insert(number).second) continue;
+    if (text.size() > kLongestList || others_are_told_) break;
+    if (told_unused_.contains(number)) continue;
+    if (told_unused_.size() == kMostUnused) {
+      others_are_told_ = true;
+      text += text.empty() ? "not used: others, which are not named" : ", and others";
+      break;
+    }
+    told_unused_.insert(number);
     text += (text.empty() ? "not used: " : ", ") + std::to_string(number) + " " +
             std::string(unused_message_text(number));
   }
@@ -170,7 +202,7 @@ std::string Rtcm3Format::why_none() const {
   std::string others;
   for (const auto& [number, count] : c.unused) {
     const std::string_view what = unused_message_text(number);
-    if (others.size() > 120 || what.empty()) continue;
+    if (others.size() > kLongestList || what.empty()) continue;
     others += (others.empty() ? " (" : ", ") + std::to_string(number) + " " + std::string(what);
   }
   if (!others.empty()) others += ")";

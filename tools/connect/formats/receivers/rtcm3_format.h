@@ -45,11 +45,13 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   static const char* ephemeris_remedy(System system);
   void on_epoch(const RawEpoch& epoch) override;
   void on_ephemeris(const Ephemeris& ephemeris) override;
-  void on_stated_toe(GpsTime time) override { clock_->confirm_host(time, arrival_ns_); }
-  void on_station_position(const StationPosition& position) override { station_.take(position); }
+  void on_stated_toe(GpsTime time) override;
+  void on_station_position(const StationPosition& position) override;
   void on_ssr(const SsrMessage& message) override;
   void tell_time();
   GpsTime time_of_arrival(GpsTime of_message) const;
+  // Of a live service without epochs; else unset.
+  GpsTime service_time() const;
   std::string why_none() const;
   std::string host_doubt() const;
   std::string week_text() const;
@@ -63,6 +65,7 @@ class Rtcm3Format final : public StreamFormat, private Rtcm3Handler {
   Rtcm3Decoder decoder_;
   StationMonitor station_;
   std::set<std::uint16_t> told_unused_;  // numbers of messages
+  bool others_are_told_ = false;         // that there are more of them
   std::int64_t arrival_ns_ = 0;          // of the bytes at hand
   GpsTime last_epoch_;                   // also of a station; and its arrival
   std::int64_t last_epoch_ns_ = 0;

@@ -29,7 +29,8 @@ std::string StationMonitor::take_news() {
   if (moves_ == 0 || std::exchange(is_told_, true)) return "";
   return leonav::format(
       "its station %d has moved by %.1f m (messages 1005 and 1006): is it another one under the "
-      "same number? What comes now was observed there",
+      "same number, or a receiver that moves and sends where it is? What comes now was observed "
+      "there",
       int{last_station_}, last_move_m_);
 }
 

@@ -1,7 +1,7 @@
 // A system whose satellites are observed and of which no ephemeris comes is told.
 #include "tools/connect/formats/outputs/ephemeris_monitor.h"
 
-#include <initializer_list>
+#include <string>
 
 #include "support/catch.h"
 #include "tools/connect/formats/outputs/receiver_output.h"
@@ -48,6 +48,12 @@ Ephemeris ephemeris_of(System system, double toe_s = 0.0) {
 
 // Two streams of one program.
 struct TwoReceivers {
+  // An epoch every half a minute, from `begin` to `end`.
+  void observe(double begin_s, double end_s, int gps, int galileo, int beidou = 0) {
+    for (double s = begin_s; s <= end_s; s += 30.0) {
+      receiver.send(epoch_of(s, gps, galileo, beidou), 0);
+    }
+  }
   NoTarget target;
   MessageOutput output{&target};
   GpsClock clock{TimeReference::kGnss, 0.05};
@@ -55,40 +61,44 @@ struct TwoReceivers {
   ReceiverOutput other{0.0, &clock, &output, nullptr, remedy_for};
 };
 
+const std::string kOthers =
+    " (unless another program sends their orbits: warn_without_ephemerides)";
+
 }  // namespace
 
-TEST_CASE("A system without ephemerides is told after a minute, once, until one comes",
+TEST_CASE("A system without ephemerides is told after its patience, once, until one comes",
           "[connect]") {
   TwoReceivers rig;
   rig.receiver.send(ephemeris_of(System::kGps));
-  rig.receiver.send(epoch_of(0.0, 9, 12), 0);
-  rig.receiver.send(epoch_of(59.0, 9, 12), 0);
+  rig.observe(0.0, 120.0, 9, 12);
+  rig.receiver.send(epoch_of(149.0, 9, 12), 0);
   CHECK(rig.receiver.take_news().empty());
   CHECK(rig.receiver.detail() == "42 signals in the last epoch, 1 ephemerides");
-  rig.receiver.send(epoch_of(60.0, 9, 11), 0);
-  const std::string text = "11 Galileo satellites without an ephemeris: switch on the rest";
+  rig.receiver.send(epoch_of(150.0, 9, 11), 0);
+  const std::string text =
+      "11 Galileo satellites without an ephemeris: switch on the rest" + kOthers;
   CHECK(rig.receiver.take_news() == text);
   CHECK(rig.receiver.take_news().empty());
   CHECK(rig.receiver.detail() == "40 signals in the last epoch, 1 ephemerides; " + text);
   // Not while none of them is in view.
-  rig.receiver.send(epoch_of(61.0, 9, 0), 0);
+  rig.receiver.send(epoch_of(151.0, 9, 0), 0);
   CHECK_THAT(rig.receiver.detail(), !Catch::Contains("Galileo"));
-  rig.receiver.send(epoch_of(62.0, 9, 11), 0);
+  rig.receiver.send(epoch_of(152.0, 9, 11), 0);
   CHECK_THAT(rig.receiver.detail(), Catch::Contains(text));
   CHECK(rig.receiver.take_news().empty());
   rig.receiver.send(ephemeris_of(System::kGalileo));
-  rig.receiver.send(epoch_of(63.0, 9, 11), 0);
+  rig.receiver.send(epoch_of(153.0, 9, 11), 0);
   CHECK_THAT(rig.receiver.detail(), !Catch::Contains("Galileo"));
   CHECK(rig.receiver.take_news().empty());
 }
 
 TEST_CASE("Systems with the same remedy share a sentence", "[connect]") {
   TwoReceivers rig;
-  rig.receiver.send(epoch_of(0.0, 9, 12, 7), 0);
-  rig.receiver.send(epoch_of(60.0, 9, 12, 7), 0);
+  rig.observe(0.0, 150.0, 9, 12, 7);
   CHECK(rig.receiver.take_news() ==
         "9 GPS and 12 Galileo satellites without an ephemeris: switch on the rest; "
-        "7 BeiDou satellites without an ephemeris: switch on D1");
+        "7 BeiDou satellites without an ephemeris: switch on D1" +
+            kOthers);
 }
 
 TEST_CASE("Ephemerides and corrected states of another stream are enough", "[connect]") {
@@ -99,8 +109,7 @@ TEST_CASE("Ephemerides and corrected states of another stream are enough", "[con
     } else {
       rig.other.send(ephemeris_of(System::kGalileo));
     }
-    rig.receiver.send(epoch_of(0.0, 0, 12), 0);
-    rig.receiver.send(epoch_of(60.0, 0, 12), 0);
+    rig.observe(0.0, 150.0, 0, 12);
     CHECK(rig.receiver.take_news().empty());
     CHECK_THAT(rig.receiver.detail(), !Catch::Contains("Galileo"));
   }
@@ -112,20 +121,68 @@ TEST_CASE("Elements for corrections alone are no ephemerides, and old ones none 
   Ephemeris cnav1 = ephemeris_of(System::kBeidou);
   cnav1.message = NavigationMessage::kBeidouCnav1;
   rig.receiver.send(cnav1);
-  rig.receiver.send(ephemeris_of(System::kGps, -3.99 * 3600.0));
-  for (const double second : {0.0, 60.0}) rig.receiver.send(epoch_of(second, 9, 0, 7), 0);
-  CHECK(rig.receiver.take_news() == "7 BeiDou satellites without an ephemeris: switch on D1");
-  for (const double second : {120.0, 180.0}) rig.receiver.send(epoch_of(second, 9, 0, 7), 0);
+  rig.receiver.send(ephemeris_of(System::kGps, -7000.0));
+  rig.observe(0.0, 150.0, 9, 0, 7);
+  CHECK(rig.receiver.take_news() ==
+        "7 BeiDou satellites without an ephemeris: switch on D1" + kOthers);
+  rig.observe(180.0, 390.0, 9, 0, 7);
   CHECK_THAT(rig.receiver.take_news(), Catch::Contains("9 GPS satellites"));
 }
 
-TEST_CASE("A receiver whose time has stepped gets another minute", "[connect]") {
+TEST_CASE("A receiver whose time has stepped is waited for anew", "[connect]") {
   TwoReceivers rig;
-  rig.receiver.send(epoch_of(0.0, 9, 0), 0);
-  rig.receiver.send(epoch_of(1e8, 9, 0), 0);
+  rig.observe(0.0, 120.0, 9, 0);
+  // Back by a minute.
+  rig.observe(60.0, 180.0, 9, 0);
   CHECK(rig.receiver.take_news().empty());
-  rig.receiver.send(epoch_of(1e8 + 60.0, 9, 0), 0);
+  rig.observe(210.0, 210.0, 9, 0);
   CHECK_THAT(rig.receiver.take_news(), Catch::Contains("9 GPS satellites"));
+}
+
+TEST_CASE("A pause without satellites, or without epochs, does not count as waiting", "[connect]") {
+  const bool has_epochs = GENERATE(true, false);
+  TwoReceivers rig;
+  rig.observe(0.0, 90.0, 9, 12);
+  if (has_epochs) rig.observe(120.0, 690.0, 0, 0);
+  // As after a garage: every satellite has to send its ephemeris first.
+  rig.observe(720.0, 840.0, 9, 12);
+  CHECK(rig.receiver.take_news().empty());
+  rig.observe(870.0, 870.0, 9, 12);
+  CHECK_THAT(rig.receiver.take_news(), Catch::Contains("9 GPS and 12 Galileo satellites"));
+}
+
+TEST_CASE("Satellites that come and go are waited for while they are observed", "[connect]") {
+  TwoReceivers rig;
+  for (int k = 0; k <= 150; ++k) {
+    rig.receiver.send(epoch_of(2.0 * k, 9, 0), 0);
+    rig.receiver.send(epoch_of(2.0 * k + 1.0, k % 2 == 0 ? 9 : 0, 0), 0);
+    if (k < 140) CHECK(rig.receiver.take_news().empty());
+  }
+  CHECK_THAT(rig.receiver.take_news(), Catch::Contains("9 GPS satellites"));
+}
+
+TEST_CASE("A system whose orbits another program sends is not told", "[connect]") {
+  TwoReceivers rig;
+  ExpectedOrbits expected = expected_by_default();
+  expected[index_of(System::kGalileo)] = false;
+  rig.output.expect_orbits(expected);
+  rig.observe(0.0, 300.0, 9, 12);
+  CHECK_THAT(rig.receiver.take_news(), Catch::StartsWith("9 GPS satellites"));
+  rig.output.expect_orbits({});
+  rig.observe(330.0, 600.0, 9, 12);
+  CHECK(rig.receiver.take_news().empty());
+  CHECK_THAT(rig.receiver.detail(), !Catch::Contains("without an ephemeris"));
+}
+
+TEST_CASE("An orbit is known for as long as leonavd uses one of its system", "[connect]") {
+  const auto [system, limit_s] = GENERATE(table<System, double>(
+      {{System::kGps, 7200.0}, {System::kGalileo, 14'400.0}, {System::kBeidou, 21'600.0}}));
+  KnownOrbits orbits;
+  orbits.note({system, 3}, kBegin);
+  for (const double sign : {-1.0, 1.0}) {
+    CHECK(orbits.has_any(system, kBegin.plus_seconds(sign * (limit_s - 1.0))));
+    CHECK_FALSE(orbits.has_any(system, kBegin.plus_seconds(sign * (limit_s + 1.0))));
+  }
 }
 
 }  // namespace leonav

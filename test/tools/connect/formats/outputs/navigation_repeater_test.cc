@@ -76,9 +76,32 @@ TEST_CASE("Each ephemeris is sent again after its interval, a few at a time", "[
   CHECK(rig.at(33.0) == 0);
   CHECK(rig.at(60.0) == 4);
   CHECK(rig.target.count[Channel::kEphemeris] == 14);
-  // After four hours they are of no use to anyone.
-  CHECK(rig.at(5 * 3600.0) == 0);
-  CHECK(rig.at(6 * 3600.0) == 0);
+}
+
+TEST_CASE("An ephemeris is sent again as long as leonavd uses one of its system", "[connect]") {
+  const auto [system, message, limit_s] = GENERATE(table<System, NavigationMessage, double>(
+      {{System::kGps, NavigationMessage::kGpsLnav, 7200.0},
+       {System::kGalileo, NavigationMessage::kGalileoInav, 14'400.0},
+       {System::kBeidou, NavigationMessage::kBeidouD1, 21'600.0}}));
+  RepeaterRig rig(30.0);
+  Ephemeris ephemeris = ephemeris_of(3);
+  ephemeris.satellite.system = system;
+  ephemeris.message = message;
+  rig.repeater.remember(ephemeris, kToe);
+  CHECK(rig.at(limit_s - 1.0) == 1);
+  CHECK(rig.at(limit_s + 100.0) == 0);
+  // The next issue takes its place.
+  ephemeris.toe = kToe.plus_seconds(limit_s);
+  rig.repeater.remember(ephemeris, kToe.plus_seconds(limit_s));
+  CHECK(rig.at(limit_s + 100.0) == 1);
+}
+
+TEST_CASE("An epoch of another time takes nothing away", "[connect]") {
+  RepeaterRig rig(30.0);
+  rig.repeater.remember(ephemeris_of(1), kToe);
+  rig.repeater.remember({delay_of("5P", 1.0)}, kToe);
+  for (const double wild_s : {-9e8, 86'400.0, 9e8}) CHECK(rig.at(wild_s) == 0);
+  CHECK(rig.at(30.0) == 2);
 }
 
 TEST_CASE("Epochs that are rare bring every ephemeris in turn", "[connect]") {
@@ -114,7 +137,7 @@ TEST_CASE("Of a satellite's group delays the newest of each signal are sent agai
   for (const SignalBias& bias : rig.target.biases) sent[to_string(bias.code)] = bias.bias_m;
   CHECK(sent == std::map<std::string, double>{{"5P", 3.0}, {"1D", 2.0}, {"5D", 4.0}});
   CHECK(rig.target.biases.front().time == kToe);
-  // Four hours after one was received it is dropped.
+  // Four hours after one was received it is sent no more.
   CHECK(rig.at(4 * 3600.0 + 900.0) == 1);
   CHECK(rig.target.biases.size() == 2);
   CHECK(rig.at(5 * 3600.0) == 0);

@@ -441,6 +441,29 @@ TEST_CASE("A service that sends the same ephemerides again is alive", "[connect]
   CHECK(ephemerides.list.size() == 1);
 }
 
+TEST_CASE("A live service of ephemerides sends them again for who starts later", "[connect]") {
+  const bool is_live = GENERATE(true, false);
+  Ephemerides ephemerides;
+  MessageOutput output(&ephemerides);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  SharedCorrections shared({}, {}, &output);
+  CorrectionOutput corrections("service", &shared);
+  Rtcm3Format service(is_live ? GpsTime() : kTime, 30.0, &clock, &output, true, &corrections);
+  const auto feed = [&](std::uint64_t satellite, double s) {
+    service.feed(gps_ephemeris(satellite), host_ns(kTime.plus_seconds(s)));
+  };
+  feed(3, 0.0);
+  feed(4, 20.0);
+  CHECK(ephemerides.list.size() == 2);
+  // Any ephemeris, new or not, is an occasion for those that are due.
+  feed(4, 31.0);
+  REQUIRE(ephemerides.list.size() == (is_live ? 3 : 2));
+  if (is_live) CHECK(ephemerides.list.back().satellite.number == 3);
+  feed(3, 51.0);
+  REQUIRE(ephemerides.list.size() == (is_live ? 4 : 2));
+  CHECK(ephemerides.list.back().satellite.number == 4);
+}
+
 TEST_CASE("Corrections that are too old are told with what may be wrong", "[connect]") {
   PublishedCorrections messages;
   MessageOutput output(&messages);

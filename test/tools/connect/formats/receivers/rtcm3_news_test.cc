@@ -102,4 +102,32 @@ TEST_CASE("Each message that is not used is named once", "[connect]") {
   CHECK(rig.news(false) == "not used: 1020 GLONASS ephemeris (system not used)");
 }
 
+TEST_CASE("Noise with the numbers of many messages is told in short lines, and not for ever",
+          "[connect]") {
+  NewsRig rig;
+  for (std::uint32_t number = 2000; number < 2200; ++number) rig.feed(message_of(number));
+  std::string all;
+  for (int second = 0; second < 100; ++second) {
+    const std::string line = rig.news(false);
+    CHECK(line.size() < 200);
+    all += line + "\n";
+  }
+  CHECK_THAT(all, Catch::Contains("2000 ") && Catch::Contains("2039 ") &&
+                      !Catch::Contains("2040") && Catch::Contains("others"));
+  rig.feed(message_of(2200));
+  CHECK(rig.format.take_news().empty());
+}
+
+TEST_CASE("Where the station of a service is does not matter", "[connect]") {
+  Unheard target;
+  MessageOutput output(&target);
+  GpsClock clock(TimeReference::kGnss, 0.05);
+  Rtcm3Format service(GpsTime(), 30.0, &clock, &output, true);
+  for (const double x_m : {0.0, 812.5}) {
+    service.feed(station_at(12, x_m), 1'700'000'000'000'000'000);
+  }
+  CHECK(service.take_news().empty());
+  CHECK(service.detail().empty());
+}
+
 }  // namespace leonav
