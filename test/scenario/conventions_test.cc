@@ -91,7 +91,7 @@ TEST_CASE("mistakes of a first run are reported with their remedies, a correct r
   tells(rates, "rates_as_increments", "by the interval");
   const std::string utc =
       imu([](ImuSample* sample) { sample->time = sample->time.plus_seconds(-18.0); });
-  tells(utc, "leap_seconds", "in UTC, stamp it in GPS time");
+  tells(utc, "leap_seconds", "the IMU is in UTC), stamp it in GPS time");
 
   const std::string doppler = edited(place, log, [](int, RawEpoch* epoch) {
     for (SignalObservation& observation : epoch->observations) observation.doppler_hz *= -1.0;

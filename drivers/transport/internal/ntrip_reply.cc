@@ -22,6 +22,9 @@ struct NtripReply::Http {
 namespace {
 
 constexpr std::size_t kMaxFirstLine = 512;
+// Beast asserts that the last chunk, once it has seen its first line, has so many bytes when it
+// sees it again: "0", two ends of lines.
+constexpr std::size_t kLeastOfLastChunk = 5;
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -117,6 +120,7 @@ void NtripReply::read_http(std::vector<std::uint8_t>* stream) {
   std::array<std::uint8_t, 4096> piece;
   std::size_t used = 0;
   while (answer_ == NtripAnswer::kPending || answer_ == NtripAnswer::kStream) {
+    if (may_have_last_chunk_ && waiting_.size() - used < kLeastOfLastChunk) break;
     auto& body = parser.get().body();
     body.data = piece.data();
     body.size = piece.size();
@@ -125,6 +129,9 @@ void NtripReply::read_http(std::vector<std::uint8_t>* stream) {
     const std::size_t taken =
         parser.put(boost::asio::buffer(waiting_.data() + used, waiting_.size() - used), error);
     used += taken;
+    const auto rest = waiting_.begin() + static_cast<std::ptrdiff_t>(used);
+    may_have_last_chunk_ = error == http::error::need_more && parser.is_header_done() &&
+                           std::find(rest, waiting_.end(), '\n') != waiting_.end();
     const bool is_full = error == http::error::need_buffer;
     if (error && !is_full && error != http::error::need_more) {
       answer_ = parser.is_header_done() ? NtripAnswer::kBrokenChunk : NtripAnswer::kNotNtrip;
