@@ -310,7 +310,7 @@ TEST_CASE("precise orbits 15 m off the broadcast ones degrade HEALTH, and are co
   }
   watched.feed(everything);
   CHECK(watched.at(60.0) ==
-        "DEGRADED: precise orbits contradict the broadcast ones: the broadcast ones are used; look "
+        "DEGRADED: precise orbits contradict the broadcast ones: the broadcast ones are used, look "
         "at the source of corrections and of ephemerides");
   const auto& counts = watched.message().counts;
   const auto refused = std::find_if(counts.begin(), counts.end(), [](const count_t& count) {
