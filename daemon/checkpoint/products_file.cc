@@ -101,14 +101,15 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return std::nullopt;
   const std::string text = read_file(path);
-  auto [rest, events] = without_sum(text, path);
+  auto [rest, told_events] = without_sum(text, path);
+  std::int64_t events = 0;
   BroadcastProducts products;
   Decoder decoder;
   const auto biases = std::make_unique<SignalBiases>();  // too large for a stack
   while (!rest.empty()) {
     const auto event = take_event(&rest);
     if (!event) throw ConfigError(path + ": is damaged: no event log");
-    --events;
+    ++events;
     const auto channel = channel_from_name(event->channel);
     Ephemeris ephemeris;
     KlobucharModel ionosphere;
@@ -127,7 +128,7 @@ std::optional<BroadcastProducts> load_products(const std::string& path) {
       throw ConfigError(path + ": is of another version of leonav, or damaged");
     }
   }
-  if (events != 0) throw ConfigError(path + ": is damaged: events are missing");
+  if (events != told_events) throw ConfigError(path + ": is damaged: events are missing");
   return products;
 }
 

@@ -115,6 +115,11 @@ TEST_CASE("a file with any byte changed, cut anywhere, or too long is refused as
     if (i % 7 == 0) attempt(text.substr(0, i));
   }
   attempt(std::string(2'000'000, 'x'));
+  // The number of events, which no sum covers, is the least there is.
+  std::string least = text;
+  const std::size_t number = least.rfind("\xED\xA1\xDA\x01") + 4;
+  least.replace(number, 8, std::string("\x80") + std::string(7, '\0'));
+  attempt(least);
   CHECK(refused == tried);
 }
 
