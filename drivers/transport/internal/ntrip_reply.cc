@@ -129,9 +129,9 @@ void NtripReply::read_http(std::vector<std::uint8_t>* stream) {
     const std::size_t taken =
         parser.put(boost::asio::buffer(waiting_.data() + used, waiting_.size() - used), error);
     used += taken;
-    const auto rest = waiting_.begin() + static_cast<std::ptrdiff_t>(used);
+    const std::string rest(waiting_.begin() + static_cast<std::ptrdiff_t>(used), waiting_.end());
     may_have_last_chunk_ = error == http::error::need_more && parser.is_header_done() &&
-                           std::find(rest, waiting_.end(), '\n') != waiting_.end();
+                           rest.find("\r\n", 1) != std::string::npos;
     const bool is_full = error == http::error::need_buffer;
     if (error && !is_full && error != http::error::need_more) {
       answer_ = parser.is_header_done() ? NtripAnswer::kBrokenChunk : NtripAnswer::kNotNtrip;
