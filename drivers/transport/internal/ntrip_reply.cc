@@ -22,8 +22,8 @@ struct NtripReply::Http {
 namespace {
 
 constexpr std::size_t kMaxFirstLine = 512;
-// Beast asserts that the last chunk, once it has seen its first line, has so many bytes when it
-// sees it again: "0", two ends of lines.
+// Beast asserts that a first chunk which is the last one has so many bytes ("0" and two ends of
+// lines) when it sees it again. Every later chunk follows an end of a line and so has them.
 constexpr std::size_t kLeastOfLastChunk = 5;
 
 std::string lower_case(std::string text) {
@@ -120,18 +120,22 @@ void NtripReply::read_http(std::vector<std::uint8_t>* stream) {
   std::array<std::uint8_t, 4096> piece;
   std::size_t used = 0;
   while (answer_ == NtripAnswer::kPending || answer_ == NtripAnswer::kStream) {
-    if (may_have_last_chunk_ && waiting_.size() - used < kLeastOfLastChunk) break;
+    if (first_chunk_is_last_ && waiting_.size() - used < kLeastOfLastChunk) break;
     auto& body = parser.get().body();
     body.data = piece.data();
     body.size = piece.size();
     body.more = true;
+    const bool is_in_body = parser.is_header_done();
     boost::system::error_code error;
     const std::size_t taken =
         parser.put(boost::asio::buffer(waiting_.data() + used, waiting_.size() - used), error);
     used += taken;
-    const std::string rest(waiting_.begin() + static_cast<std::ptrdiff_t>(used), waiting_.end());
-    may_have_last_chunk_ = error == http::error::need_more && parser.is_header_done() &&
-                           rest.find("\r\n", 1) != std::string::npos;
+    if (is_in_body && taken > 0) has_chunk_ = true;
+    // A first line that is whole and not taken is that of a last chunk, which may have trailers.
+    const std::string_view rest(reinterpret_cast<const char*>(waiting_.data()) + used,
+                                waiting_.size() - used);
+    first_chunk_is_last_ = is_in_body && !has_chunk_ && error == http::error::need_more &&
+                           rest.find("\r\n", 1) != std::string_view::npos;
     const bool is_full = error == http::error::need_buffer;
     if (error && !is_full && error != http::error::need_more) {
       answer_ = parser.is_header_done() ? NtripAnswer::kBrokenChunk : NtripAnswer::kNotNtrip;

@@ -52,7 +52,7 @@ class NtripReply {
   std::vector<std::uint8_t> waiting_;  // has come, and is not taken apart yet
   std::unique_ptr<Http> http_;         // null: the answer of version 1, or not known yet
   bool is_icy_ = false, has_begun_ = false;
-  bool may_have_last_chunk_ = false;  // `waiting_` has a line of a chunk, and Beast wants more
+  bool has_chunk_ = false, first_chunk_is_last_ = false;  // of HTTP's chunks
 };
 
 }  // namespace leonav

@@ -81,6 +81,7 @@ TEST_CASE("Answers are understood, in whatever pieces they come", "[ntrip]") {
       {kChunked + "0\r\n\r\n", NtripAnswer::kEnded, ""},
       {kChunked + "00\r\n\r\n", NtripAnswer::kEnded, ""},
       {kChunked + "1\r\nx", NtripAnswer::kStream, "x"},
+      {kChunked + "1\r\nxd\r\n\r", NtripAnswer::kBrokenChunk, "x"},
       {kChunked + "5\n\r\n", NtripAnswer::kBrokenChunk, ""},
       {kChunked + "1\r\nx\r\n\r\n", NtripAnswer::kBrokenChunk, "x"},
       {kChunked + "1\r\nx\r\n2\r\nyz", NtripAnswer::kStream, "xyz"},
