@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "core/navigator/sequencer/input_validation.h"
@@ -182,12 +181,8 @@ ProductStore* CheckpointWriter::products() { return &state_->products; }
 void CheckpointWriter::finish() {
   if (!std::exchange(is_running_, false)) return;
   state_->ask_for_end();
-  const Stopwatch watch;
-  while (!state_->has_ended() && seconds(watch) < kLongestEnd_s)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  if (state_->has_ended()) return state_->thread.join();
-  abandoned_ = true;
-  state_->thread.detach();
+  abandoned_ =
+      !state_->thread.join_or_detach(kLongestEnd_s, [this] { return state_->has_ended(); });
 }
 
 std::string CheckpointWriter::error() const {

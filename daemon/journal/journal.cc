@@ -140,17 +140,12 @@ bool Journal::push_lost_mark() {
 bool Journal::finish() {
   if (state_ == nullptr || state_->no_more.load()) return complete_;
   state_->no_more.store(true, std::memory_order_release);
-  const Stopwatch watch;
-  while (!state_->ended.load(std::memory_order_acquire) &&
-         static_cast<double>(watch.nanoseconds()) * 1e-9 < kLongestEnd_s)
-    sleep_ns(1'000'000);
-  if (!state_->ended.load(std::memory_order_acquire)) {
-    abandoned_ = true;
-    state_->thread.detach();
+  abandoned_ = !state_->thread.join_or_detach(
+      kLongestEnd_s, [this] { return state_->ended.load(std::memory_order_acquire); });
+  if (abandoned_) {
     fail(path() + ": the disk has not taken the end of the journal");
     return complete_;
   }
-  state_->thread.join();
   const std::int64_t lost = state_->counters.lost_others.get();
   if (state_->counters.complete.get() == 0) {
     const std::string reason = failure();

@@ -6,15 +6,12 @@
 #include <array>
 #include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
-#include <thread>
 #include <utility>
 
 #include "daemon/log/descriptor_write.h"
-#include "daemon/threads/counters.h"
 #include "daemon/threads/leave_to_process.h"
 #include "daemon/threads/realtime_thread.h"
 #include "daemon/threads/wakeup.h"
@@ -25,10 +22,6 @@ namespace {
 constexpr std::size_t kPartBytes = 4096;  // that are written at once
 constexpr std::size_t kNoteBytes = 128;   // of the line about lost ones
 constexpr int kLongestDirectWait_ms = 200;
-
-double seconds_of(const Stopwatch& watch) {
-  return static_cast<double>(watch.nanoseconds()) * 1e-9;
-}
 
 }  // namespace
 
@@ -226,12 +219,8 @@ void LogThread::write_directly(std::string_view line) {
 void LogThread::finish() {
   if (!std::exchange(is_running_, false)) return;
   state_->ask_for_end();
-  const Stopwatch watch;
-  while (!state_->has_ended() && seconds_of(watch) < kLongestEnd_s)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  if (state_->has_ended()) return state_->thread.join();
-  abandoned_ = true;
-  state_->thread.detach();
+  abandoned_ =
+      !state_->thread.join_or_detach(kLongestEnd_s, [this] { return state_->has_ended(); });
 }
 
 std::uint64_t LogThread::lost() const { return state_->lost(); }

@@ -2,8 +2,10 @@
 
 #include <sched.h>
 
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace leonav {
@@ -54,10 +56,17 @@ void RealtimeThread::join() {
   running_ = false;
 }
 
-void RealtimeThread::detach() {
-  if (!running_) return;
+bool RealtimeThread::join_or_detach(double longest_s, const std::function<bool()>& has_ended) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(longest_s);
+  while (!has_ended() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (!running_ || has_ended()) {
+    join();
+    return true;
+  }
   pthread_detach(thread_);
   running_ = false;
+  return false;
 }
 
 }  // namespace leonav

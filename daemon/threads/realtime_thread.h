@@ -21,8 +21,10 @@ class RealtimeThread {
   std::string start(const std::string& name, const ThreadConfig& config, std::function<void()> body,
                     std::size_t stack_bytes = kStackBytes);
   void join();
-  // Leaves the thread to itself. This object must then live as long as the thread.
-  void detach();
+  // Joins the thread once `has_ended` holds, or detaches it after so long: a disk or a reader may
+  // hold it. Returns whether it was joined; if not, this object must live as long as the thread
+  // (leave_to_process.h).
+  bool join_or_detach(double longest_s, const std::function<bool()>& has_ended);
 
   // Locked memory counts whole stacks, so they are no larger than they must be: some twice what is
   // used (docs/validation/service.md). The estimators keep matrices of some hundred kilobytes on

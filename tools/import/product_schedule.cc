@@ -11,21 +11,9 @@ namespace leonav {
 namespace {
 
 bool is_valid_at(const Ephemeris& e, GpsTime time) {
-  const EphemerisConfig limits;
-  double max_age_s = kLongestLeoAge_s;
-  switch (e.satellite.system) {
-    case System::kGps:
-      max_age_s = limits.max_age_gps_s;
-      break;
-    case System::kGalileo:
-      max_age_s = limits.max_age_galileo_s;
-      break;
-    case System::kBeidou:
-      max_age_s = limits.max_age_beidou_s;
-      break;
-    case System::kLeo:
-      break;
-  }
+  const System system = e.satellite.system;
+  const double max_age_s =
+      system == System::kLeo ? kLongestLeoAge_s : EphemerisConfig().max_age_s(system);
   return std::abs(seconds_between(time, e.toe)) <= max_age_s;
 }
 

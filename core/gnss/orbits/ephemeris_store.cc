@@ -10,6 +10,21 @@
 #include "core/gnss/orbits/precise_orbit.h"
 
 namespace leonav {
+
+double EphemerisConfig::max_age_s(System system) const {
+  switch (system) {
+    case System::kGps:
+      return max_age_gps_s;
+    case System::kGalileo:
+      return max_age_galileo_s;
+    case System::kBeidou:
+      return max_age_beidou_s;
+    case System::kLeo:
+      return max_age_leo_s;
+  }
+  return 0.0;
+}
+
 namespace {
 
 struct StoredEphemeris {
@@ -45,20 +60,6 @@ bool is_preferred_message(const Ephemeris& ephemeris, const EphemerisConfig& opt
   return (ephemeris.message == NavigationMessage::kGalileoFnav) == options.galileo_prefers_fnav;
 }
 
-double max_age_s(System system, const EphemerisConfig& options) {
-  switch (system) {
-    case System::kGps:
-      return options.max_age_gps_s;
-    case System::kGalileo:
-      return options.max_age_galileo_s;
-    case System::kBeidou:
-      return options.max_age_beidou_s;
-    case System::kLeo:
-      return options.max_age_leo_s;
-  }
-  return 0.0;
-}
-
 // Returns whether `a` serves `time` better than `b`: nearer toe, preferred message, later
 // transmission, later arrival, in this order. Galileo sends each batch of elements in both
 // messages, with the same toe and IODnav and the clock of each message's pair (OS-SIS-ICD 5.1.3,
@@ -80,7 +81,7 @@ bool is_better(const StoredEphemeris& a, const StoredEphemeris& b, GpsTime time,
 
 bool is_in_age(const Ephemeris& ephemeris, GpsTime time, const EphemerisConfig& options) {
   return std::abs(seconds_between(time, ephemeris.toe)) <=
-         max_age_s(ephemeris.satellite.system, options);
+         options.max_age_s(ephemeris.satellite.system);
 }
 
 const Ephemeris* best_ephemeris(const Ephemerides& ephemerides, SatelliteId satellite, GpsTime time,

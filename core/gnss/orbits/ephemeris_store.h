@@ -47,6 +47,8 @@ struct EphemerisConfig {
   // Prefers F/NAV (E1,E5a clock) to I/NAV (E1,E5b) where both exist for one toe.
   bool galileo_prefers_fnav = false;
 
+  // Returns how long before and after its toe a broadcast ephemeris of the system is used, s.
+  double max_age_s(System system) const;
   bool operator==(const EphemerisConfig&) const = default;
 };
 

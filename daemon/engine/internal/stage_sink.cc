@@ -71,8 +71,9 @@ void count_convention(const Event& event, EngineCounters* counters) {
 constexpr std::array kOfStamps = {Convention::kLeapSeconds, Convention::kStampOffset,
                                   Convention::kOrbits};
 
-// Where the time of the inputs has stepped, what a stage has found about stamps holds no more: it
-// looks anew, and finds again what is still wrong. Axes, units and lever arms are as they were.
+// Where the time of the inputs has stepped, what a stage had found about stamps is void. The stage
+// restarts its search and reports again what is still wrong. Findings about axes, units and lever
+// arms stay.
 void note_reset(const Event& event, EngineCounters* counters) {
   const auto cause = static_cast<ResetCause>(event.code);
   if (cause != ResetCause::kWindow) {

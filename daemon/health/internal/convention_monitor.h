@@ -13,8 +13,8 @@ namespace leonav {
 // A mistake in the configuration or in what feeds the daemon. The reason stays until the mistake is
 // mended and the daemon is started again. What the Sequencer finds it finds again each minute while
 // it lasts, as stamps of a receiver that does not know the leap seconds yet: that stays until it
-// has not been found for two minutes. A time step of the inputs ends all of them: the stages look
-// anew, so that a clock that was wrong for a while leaves no blame on the IMU.
+// has not been found for two minutes. A time step of the inputs ends the mistakes of stamps: where
+// one is still there, the stages find it again.
 class ConventionMonitor {
  public:
   explicit ConventionMonitor(const EngineCounters* counters) : counters_(counters) {}

@@ -7,7 +7,8 @@ constexpr const char* kDrill = "drill";
 
 }  // namespace
 
-// Whoever has forgotten a drill is told with each of its consequences.
+// Where a drill is on, the reasons that it causes say so: its warning at the start is soon
+// forgotten.
 std::span<const Finding> LoadMonitor::look() {
   found_.clear();
   const EngineCounters& counters = engine_->counters();

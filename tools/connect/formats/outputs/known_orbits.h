@@ -10,23 +10,6 @@
 
 namespace leonav {
 
-// Returns how long before and after its reference time leonavd uses a broadcast ephemeris unless it
-// is configured otherwise.
-inline double max_orbit_age_s(System system) {
-  const EphemerisConfig limits;
-  switch (system) {
-    case System::kGps:
-      return limits.max_age_gps_s;
-    case System::kGalileo:
-      return limits.max_age_galileo_s;
-    case System::kBeidou:
-      return limits.max_age_beidou_s;
-    case System::kLeo:
-      break;
-  }
-  return limits.max_age_leo_s;
-}
-
 // Whether systems have their orbits from this program; a false one is never said to be without.
 using ExpectedOrbits = std::array<bool, kSystemCount>;
 
@@ -47,9 +30,10 @@ class KnownOrbits {
   void note(SatelliteId satellite, GpsTime reference) { last_[satellite] = reference; }
 
   bool is_expected(System system) const { return expected_[index_of(system)]; }
-  // Returns whether one of any satellite of the system can be used at this time.
+  // Returns whether leonavd, unless it is configured otherwise, can use one of any satellite of the
+  // system at this time.
   bool has_any(System system, GpsTime time) const {
-    const double max_age_s = max_orbit_age_s(system);
+    const double max_age_s = EphemerisConfig().max_age_s(system);
     const auto first = last_.lower_bound({system, 0});
     for (auto one = first; one != last_.end() && one->first.system == system; ++one) {
       if (std::abs(seconds_between(time, one->second)) <= max_age_s) return true;

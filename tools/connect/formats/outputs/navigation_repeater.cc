@@ -16,7 +16,7 @@ bool is_near(GpsTime reference, GpsTime now, double max_age_s) {
 
 // Whether it can serve at that time, of biases whether any can.
 bool can_serve(const Ephemeris& ephemeris, GpsTime now) {
-  return is_near(ephemeris.toe, now, max_orbit_age_s(ephemeris.satellite.system));
+  return is_near(ephemeris.toe, now, EphemerisConfig().max_age_s(ephemeris.satellite.system));
 }
 bool can_serve(const KlobucharModel&, GpsTime) { return true; }
 bool can_serve(const SignalBias& bias, GpsTime now) {

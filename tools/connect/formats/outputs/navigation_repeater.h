@@ -17,8 +17,9 @@ namespace leonav {
 class NavigationRepeater {
  public:
   // Group delays are sent for so long after they were received, an ephemeris as long as leonavd
-  // uses it (max_orbit_age_s). The ionosphere has no such limit: its coefficients change every few
-  // days. What is too old is kept, for an epoch's time may be wrong; newer contents take its place.
+  // uses it (EphemerisConfig::max_age_s). The ionosphere has no such limit: its coefficients change
+  // every few days. What is too old is kept, for an epoch's time may be wrong; newer contents take
+  // its place.
   static constexpr double kMaxDelayAge_s = 4 * 3600.0;
   // At each epoch: all at once could find no room in the receiving socket. Those that wait longest
   // come first.
