@@ -1,5 +1,6 @@
 #include "daemon/config/config_file.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -67,10 +68,13 @@ std::string read_config_file(const std::string& path) {
     throw ConfigError(path + ": cannot be opened: " + std::strerror(errno) +
                       "; a configuration may be one line, \"preset: car\"");
   }
-  // One byte more than any configuration has, so that a device without an end is refused as well.
-  std::string text(kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  // A piece more than any configuration has at most, so that a device without an end is refused.
+  std::string text;
+  std::array<char, 4096> piece;
+  do {
+    file.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file && text.size() <= kMostBytes);
   if (text.size() > kMostBytes)
     throw ConfigError(path + ": is longer than a megabyte, which no configuration is");
   return text;

@@ -79,7 +79,7 @@ const std::string kNoImu = "no usable IMU (nothing comes): look at its sender";
 const std::string kNoGnss = "no usable GNSS (nothing comes): look at its sender and the antenna";
 const std::string kLate = "no solution of late: the reasons beside this one say why";
 const std::string kEnded = "the solution has ended: the reasons beside this one say why";
-const std::string kInsOnly = "INS only: wait for satellites, the sigma grows until then";
+const std::string kInsOnly = "INS only: wait for satellites (the sigma grows until then)";
 
 const auto everything = [](Channel) { return true; };
 const auto all_but_imu = [](Channel channel) { return channel != Channel::kImu; };
@@ -191,7 +191,7 @@ TEST_CASE("a restart takes the source with it, until there is an answer again") 
     CHECK(before == "OK: ekf");
     const std::string started_over =
         "the filter has started over (by the command restart): normal once after an outage or a "
-        "command, the events filter_reset have the numbers";
+        "command (the events filter_reset have the numbers)";
     CHECK(after.find("FAULT: no solution yet (") == 0);
     CHECK(after.find(started_over + "none") != std::string::npos);
     const bool inertial = motion == MotionModel::kInertial;

@@ -3,13 +3,15 @@
   fuzz.py PROGRAM OUT [--seconds S | --minutes M] [--runs N] [--jobs N] [TARGET...]
 
 OUT/TARGET/corpus is the corpus that grows, OUT/TARGET/log what libFuzzer said last, OUT/TARGET/executions the number of executions of
-all runs and the seconds of a processor that they took, OUT/TARGET/*-HASH the inputs that were findings.
+all runs and the seconds of a processor that they took, OUT/TARGET/*-HASH the inputs that were findings. Ctrl-C and SIGTERM end the run;
+what was executed until then counts.
 """
 import argparse
 import concurrent.futures
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -17,15 +19,16 @@ import time
 SEEDS = pathlib.Path(__file__).resolve().parents[3] / "test/fuzz/corpus"
 # An input that takes longer, or more memory, is a finding as well.
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048"]
-SHORTEST, LONGEST = 1024, 16384  # bytes: an input may be twice as long as the longest seed, within these
+SHORTEST = 1024  # bytes: an input may be as long as the longest seed, and at least so long
 # No other process adds to the corpus; new functions are not looked up by name; fast inputs are changed more often than slow ones.
 HABITS = ["-reload=0", "-print_funcs=0", "-entropic_scale_per_exec_time=1", "-print_final_stats=1"]
-# Freed memory is kept back for as long as an input runs, not for hundreds, and stays mapped; where it was taken is told when a finding is
-# repeated without these.
-SANITIZER = "quarantine_size_mb=16:allocator_release_to_os_interval_ms=-1:malloc_context_size=1"
+# Freed memory is kept back for little longer than an input runs, so that it fits a processor's cache, and stays mapped; where it was
+# taken is told when a finding is repeated without these.
+SANITIZER = "quarantine_size_mb=1:allocator_release_to_os_interval_ms=-1:malloc_context_size=1"
 FIRST_S = 5  # how long a target runs to find its rate
 RUNS = 10_000_000
 FINDINGS = ("crash-*", "timeout-*", "oom-*", "leak-*")
+INTERRUPTED = 72  # libFuzzer's exit code after a signal that asks it to end
 HEADER = ("| target | executions | executions/s | coverage (edges) | inputs in the corpus | findings | the rest takes |\n"
           "|---|---|---|---|---|---|---|")
 
@@ -43,6 +46,15 @@ def duration(seconds):
 
 
 class Target:
+    running = set()
+    is_ending = False
+
+    @staticmethod
+    def end_all(*_):
+        Target.is_ending = True
+        for process in list(Target.running):
+            process.terminate()
+
     def __init__(self, program, out, name, runs):
         self.program, self.name, self.folder, self.runs = program, name, out / name, runs
         self.corpus, self.seeds, self.log = self.folder / "corpus", SEEDS / name, self.folder / "log"
@@ -64,12 +76,12 @@ class Target:
 
     def max_length(self):
         lengths = [path.stat().st_size for path in self.seeds.iterdir()] if self.seeds.is_dir() else [0]
-        return min(max(2 * max(lengths), SHORTEST), LONGEST)
+        return max([*lengths, SHORTEST])
 
     def run(self, seconds=None, is_counted=True):
         """Runs until all executions are done (`is_counted`), or for so many seconds."""
         missing = self.runs - self.executed()[0]
-        if self.code != 0 or (is_counted and missing <= 0):
+        if Target.is_ending or self.code != 0 or (is_counted and missing <= 0):
             return
         command = [self.program, *LIMITS, *HABITS, f"-max_len={self.max_length()}", f"-artifact_prefix={self.folder}/", self.corpus]
         if is_counted:
@@ -81,9 +93,13 @@ class Target:
         options = ":".join(filter(None, [SANITIZER, os.environ.get("ASAN_OPTIONS")]))
         environment = {**os.environ, "LEONAV_FUZZ_TARGET": self.name, "ASAN_OPTIONS": options}
         with open(self.log, "w", encoding="utf-8", errors="replace") as log:
-            process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+            process = subprocess.Popen(command, env=environment, stdout=log, stderr=log, start_new_session=True)
+            Target.running.add(process)
             _, status, usage = os.wait4(process.pid, 0)
+        Target.running.discard(process)
         self.code = process.returncode = os.waitstatus_to_exitcode(status)
+        if Target.is_ending and self.code == INTERRUPTED:
+            self.code = 0
         count, seconds = self.executed()
         count += last_number(r"^stat::number_of_executed_units: (\d+)", self.text())
         self.counts.write_text(f"{count} {seconds + usage.ru_utime + usage.ru_stime:.1f}\n")
@@ -128,6 +144,8 @@ def main():
     if unknown:
         sys.exit(f"fuzz: no target is called {', '.join(unknown)}; there are: {' '.join(known)}")
 
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, Target.end_all)
     targets = [Target(options.program, options.out, name, options.runs or RUNS) for name in options.targets or known]
     with open(options.out / "fuzz.md", "w", encoding="utf-8") as table, concurrent.futures.ThreadPoolExecutor(options.jobs) as workers:
         def tell(line):
