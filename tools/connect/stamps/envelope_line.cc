@@ -79,6 +79,10 @@ void EnvelopeLine::close_second() {
     return;
   }
   odd_.clear();
+  if (!points_.empty() && point.x_ns <= points_.back().x_ns) {
+    if (is_ready_) return;  // a line that holds learns nothing from it
+    points_.clear();
+  }
   points_.push_back(point);
   if (points_.size() > kWindow) points_.pop_front();
   fit();

@@ -20,7 +20,8 @@ namespace leonav {
 // if they are earlier by 50 ms or later by two seconds, which no queue does) contradict the line in
 // the same sense, one of the two clocks has stepped: the line begins anew with them, and the step
 // is counted. So it does where the sender's clock leaps by years and stays there, as when a sensor
-// learns the date.
+// learns the date. A second whose clock is not later than the last one's, as from two sensors on
+// one wire, is left out; before there is a line, it is the first of a new one.
 class EnvelopeLine {
  public:
   static constexpr std::size_t kWindow = 60;      // seconds

@@ -97,6 +97,23 @@ TEST_CASE("A clock that learns the date begins a line of its own", "[connect]") 
   CHECK_FALSE(line.agrees(-4'000'000'000'000'000'000, 0));
 }
 
+TEST_CASE("Two clocks on one wire leave a line that holds for one of them", "[connect]") {
+  EnvelopeLine line;
+  std::int64_t arrival_ns = 0;
+  for (int i = 0; i < 100; ++i) {
+    if (i % 20 == 0) arrival_ns += 20'000'000;  // many messages arrive at once
+    line.add(i % 2 == 0 ? 1'040'000'000 : 0, arrival_ns);
+    if (!line.is_ready()) continue;
+    CHECK(std::isfinite(line.sigma_s()));
+    CHECK(std::abs(line.arrival_ns(0)) <= 1'040'000'000 + arrival_ns);
+  }
+  // One of them is left.
+  Wire wire(20.0, 0.001);
+  wire.send(1.0, 20.0, 100.0, &line);
+  REQUIRE(line.is_ready());
+  CHECK(std::abs(wire.error_s(line, 20.0)) < 1e-3);
+}
+
 TEST_CASE("One message a second suffices", "[connect]") {
   EnvelopeLine line;
   Wire wire(5.0, 0.005);
