@@ -6,7 +6,7 @@
 option(LEONAV_UNITY "Compile several sources of a target as one" ON)
 if(LEONAV_UNITY AND (CMAKE_CXX_COMPILER_ID STREQUAL GNU OR LEONAV_FUZZ))
   set(CMAKE_UNITY_BUILD ON)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
   # gcc takes a source that another includes for a header, whose classes should not use what is unnamed.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()

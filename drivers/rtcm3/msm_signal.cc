@@ -20,7 +20,7 @@ constexpr Names kBeidouNames = {"",   "2I", "2Q", "2X", "",   "", "", "6I", "6Q"
                                 "",   "",   "7I", "7Q", "7X", "", "", "",   "",   "",   "5D",
                                 "5P", "5X", "7D", "",   "",   "", "", "1D", "1P", "1X"};
 
-const Names* names_of(System system) {
+const Names* msm_names_of(System system) {
   switch (system) {
     case System::kGps:
       return &kGpsNames;
@@ -37,7 +37,7 @@ const Names* names_of(System system) {
 }  // namespace
 
 std::optional<SignalCode> signal_from_msm(System system, std::uint8_t signal_id) {
-  const Names* names = names_of(system);
+  const Names* names = msm_names_of(system);
   if (names == nullptr || signal_id < 1 || signal_id > kSignals) return std::nullopt;
   return signal_from_string((*names)[signal_id - 1u]);
 }

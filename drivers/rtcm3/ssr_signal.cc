@@ -16,7 +16,7 @@ constexpr std::string_view kGalileoSignals[] = {"1A", "1B", "1C", "1X", "1Z", "5
 constexpr std::string_view kBeidouSignals[] = {"2I", "2Q", "2X", "6I", "6Q", "6X", "7I", "7Q",
                                                "7X", "1D", "1P", "1X", "5D", "5P", "5X"};
 
-std::span<const std::string_view> names_of(System system) {
+std::span<const std::string_view> ssr_names_of(System system) {
   switch (system) {
     case System::kGps:
       return kGpsSignals;
@@ -33,7 +33,7 @@ std::span<const std::string_view> names_of(System system) {
 }  // namespace
 
 std::optional<SignalCode> signal_from_ssr(System system, std::uint32_t identifier) {
-  const std::span<const std::string_view> names = names_of(system);
+  const std::span<const std::string_view> names = ssr_names_of(system);
   if (identifier >= names.size()) return std::nullopt;
   return signal_from_string(names[identifier]);
 }

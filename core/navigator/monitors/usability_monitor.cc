@@ -3,7 +3,7 @@
 namespace leonav {
 namespace {
 
-constexpr int kEpochs = 5;  // one or two epochs may be a burst of interference
+constexpr int kEpochsToTell = 5;  // one or two epochs may be a burst of interference
 
 bool is_expected(Reason reason) {
   return reason == Reason::kSystemDisabled || reason == Reason::kLowElevation;
@@ -27,7 +27,7 @@ std::optional<UsabilityMonitor::Finding> UsabilityMonitor::add(
   }
   epochs_ = finding.reason == reason_ ? epochs_ + 1 : 1;
   reason_ = finding.reason;
-  if (epochs_ != kEpochs) return std::nullopt;
+  if (epochs_ != kEpochsToTell) return std::nullopt;
   return finding;
 }
 

@@ -19,7 +19,7 @@ const std::string kStreams = "streams:\n  - {name: a, source: stdin, format: ubx
 
 std::string seed(const std::string& name) { return LEONAV_SOURCE_DIR "/test/fuzz/corpus/" + name; }
 
-ConnectConfig load(const std::string& text) {
+ConnectConfig load_with_stream(const std::string& text) {
   const test::TemporaryFile file("connect.yaml", text + kStreams);
   return load_connect_config(file.path(), {});
 }
@@ -36,7 +36,7 @@ std::string receivers_alone() {
 
 std::string error_of(const std::string& text) {
   try {
-    load(text);
+    load_with_stream(text);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -46,7 +46,7 @@ std::string error_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("Without keys of products there are none", "[connect]") {
-  const ConnectConfig config = load("");
+  const ConnectConfig config = load_with_stream("");
   CHECK(config.products->antennas.empty());
   CHECK(config.products->biases.empty());
   CHECK(config.products->leo_elements.empty());
@@ -54,9 +54,9 @@ TEST_CASE("Without keys of products there are none", "[connect]") {
 }
 
 TEST_CASE("Antenna models and biases are read with the configuration", "[connect]") {
-  const ConnectConfig config =
-      load("corrections:\n  antenna_models: " + seed("antex/three") +
-           "\n  receiver_antenna: TRM59800.00 NONE\n  biases: [" + seed("bias_sinex/both") + "]\n");
+  const ConnectConfig config = load_with_stream(
+      "corrections:\n  antenna_models: " + seed("antex/three") +
+      "\n  receiver_antenna: TRM59800.00 NONE\n  biases: [" + seed("bias_sinex/both") + "]\n");
   const FileProducts& products = *config.products;
   REQUIRE(products.antennas.size() == 3);
   CHECK(products.antennas[0].is_receiver);
@@ -72,7 +72,8 @@ TEST_CASE("Antenna models and biases are read with the configuration", "[connect
 
 TEST_CASE("What is missing beside antenna models is told with what will be worse", "[connect]") {
   const auto warning = [](const std::string& keys) {
-    const auto warnings = load("corrections: {" + keys + "}\n").products->report.warnings;
+    const auto warnings =
+        load_with_stream("corrections: {" + keys + "}\n").products->report.warnings;
     return warnings.size() == 1 ? warnings[0] : std::to_string(warnings.size()) + " warnings";
   };
   const std::string models = "antenna_models: " + seed("antex/three");
@@ -123,7 +124,7 @@ TEST_CASE("The receiver's antenna needs the file that has its model", "[connect]
 }
 
 TEST_CASE("What comes from files is repeated as the receiver's ephemerides", "[connect]") {
-  CHECK(product_repeat_s(load("")) == 30.0);
+  CHECK(product_repeat_s(load_with_stream("")) == 30.0);
   const test::TemporaryFile file(
       "connect.yaml",
       "streams:\n  - {name: s, source: stdin, format: has}\n"

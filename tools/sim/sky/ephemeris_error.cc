@@ -9,17 +9,12 @@
 #include "tools/sim/scenario/random_streams.h"
 
 namespace leonav::sim {
-namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-
-}  // namespace
 
 EphemerisError::EphemerisError(const EphemerisErrors& sigma, SatelliteId satellite, double period_s,
                                std::uint64_t seed, std::string what)
     : sigma_(sigma),
       satellite_(satellite),
-      rate_(kTwoPi / period_s),
+      rate_(2.0 * std::numbers::pi / period_s),
       seed_(seed),
       what_(std::move(what)) {}
 
@@ -46,7 +41,7 @@ double EphemerisError::clock_m(double t) const {
 double period_s(const OrbitState& state) {
   const double a =
       1.0 / (2.0 / state.p_i.norm() - state.v_i.squaredNorm() / kEarthGravitationalConstant);
-  return kTwoPi * std::sqrt(a * a * a / kEarthGravitationalConstant);
+  return 2.0 * std::numbers::pi * std::sqrt(a * a * a / kEarthGravitationalConstant);
 }
 
 Eigen::Vector3d in_inertial(const OrbitState& state, const Eigen::Vector3d& along_cross_radial) {

@@ -9,8 +9,7 @@
 namespace leonav::sim {
 namespace {
 
-// Unnormalized zonal coefficients of EGM2008 (tide-free), and its reference radius.
-constexpr double kRadius = 6'378'136.3;  // m
+// Unnormalized zonal coefficients of EGM2008 (tide-free).
 constexpr double kJ2 = 1.08262617e-3, kJ3 = -2.53241e-6, kJ4 = -1.61990e-6;
 
 using Vector6 = std::array<double, 6>;
@@ -20,7 +19,7 @@ using Vector6 = std::array<double, 6>;
 // The potential of degree n is -(GM/r) Jn (R/r)^n Pn(s), s = z/r; its gradient is taken along p and
 // z.
 Eigen::Vector3d gravitation_i(const Eigen::Vector3d& p_i) {
-  const double r = p_i.norm(), s = p_i.z() / r, q = kRadius / r;
+  const double r = p_i.norm(), s = p_i.z() / r, q = kGravityRadius / r;
   const double g = kEarthGravitationalConstant / (r * r);
   // Legendre polynomials and their derivatives.
   const double s2 = s * s;

@@ -7,6 +7,8 @@
 
 namespace leonav::sim {
 
+inline constexpr double kGravityRadius = 6'378'136.3;  // m, of EGM2008's coefficients
+
 // State in the inertial frame whose axes are those of ECEF at the start; m, m/s.
 struct OrbitState {
   Eigen::Vector3d p_i, v_i;

@@ -72,8 +72,9 @@ OrbitTable::Node node_at(const std::vector<Eigen::Vector3d>& p, std::size_t i) {
 // Returns the effect of the Earth's equatorial ellipticity (EGM2008's C22 and S22, not normalized),
 // ECEF.
 Eigen::Vector3d equator_e(const Eigen::Vector3d& p) {
-  constexpr double kC22 = 1.57461533e-6, kS22 = -9.03872789e-7, kRadius = 6'378'136.3;
-  const double r = p.norm(), scale = 3.0 * kEarthGravitationalConstant * kRadius * kRadius;
+  constexpr double kC22 = 1.57461533e-6, kS22 = -9.03872789e-7;
+  const double r = p.norm(),
+               scale = 3.0 * kEarthGravitationalConstant * kGravityRadius * kGravityRadius;
   const double form = kC22 * (p.x() * p.x() - p.y() * p.y()) + 2.0 * kS22 * p.x() * p.y();
   const Eigen::Vector3d slope(2.0 * (kC22 * p.x() + kS22 * p.y()),
                               2.0 * (kS22 * p.x() - kC22 * p.y()), 0.0);

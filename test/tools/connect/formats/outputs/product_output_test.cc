@@ -220,8 +220,9 @@ TEST_CASE("A row of elements that repeats a set is not sent beside it", "[connec
 
 namespace {
 
-struct WatchRig {
-  explicit WatchRig(std::shared_ptr<FileProducts> products) : sender(products, 30.0, &output) {}
+struct ProductWatchRig {
+  explicit ProductWatchRig(std::shared_ptr<FileProducts> products)
+      : sender(products, 30.0, &output) {}
   // Returns what is told in some seconds, in lines; warnings begin with "!".
   std::string run(double begin_s, double end_s) {
     std::string lines;
@@ -254,7 +255,7 @@ TEST_CASE("What holds is told at the first time, and a warning when satellites' 
   products->antennas = {receiver_antenna(), antenna(1, {}, kNow.plus_seconds(100.0)), antenna(2)};
   products->antennas[2].valid_until = kNow.plus_seconds(50.0);
   products->biases = {bias(1, 'C', {}, {})};
-  WatchRig rig(products);
+  ProductWatchRig rig(products);
   CHECK(rig.watch.look(rig.sender.holding(), rig.sender.time()).empty());  // no time yet
   CHECK_THAT(rig.run(0.0, 100.0), Catch::Contains("1 antenna models of the receiver and 2 of") &&
                                       Catch::Contains("biases of 1 signals, 0 sets") &&
@@ -271,7 +272,7 @@ TEST_CASE("Products that begin later are no fault, also where the receiver has n
           "[connect]") {
   auto products = std::make_shared<FileProducts>();
   products->biases = {bias(1, 'C', kNow, kNow.plus_seconds(1000.0))};
-  WatchRig rig(products);
+  ProductWatchRig rig(products);
   const std::string early = rig.run(-1e8, -1e8 + 20.0);
   CHECK_THAT(early, !Catch::Contains("!") && Catch::Contains("corrections.biases: none holds at") &&
                         Catch::Contains("the first begins at"));
@@ -285,7 +286,7 @@ TEST_CASE("Products that begin later are no fault, also where the receiver has n
 TEST_CASE("A wrong time for some seconds is not blamed on the files", "[connect]") {
   auto products = std::make_shared<FileProducts>();
   products->biases = {bias(1, 'C', kNow.plus_seconds(-1000.0), kNow.plus_seconds(1000.0))};
-  WatchRig rig(products);
+  ProductWatchRig rig(products);
   const std::string told = rig.run(1e8, 1e8 + 4.0) + rig.run(0.0, 100.0);
   CHECK(std::count(told.begin(), told.end(), '!') == 0);
 }
@@ -293,7 +294,7 @@ TEST_CASE("A wrong time for some seconds is not blamed on the files", "[connect]
 TEST_CASE("The end of elements is told when leonavd uses them no more", "[connect]") {
   auto products = std::make_shared<FileProducts>();
   products->leo_elements = {low(7, 0.0)};
-  WatchRig rig(products);
+  ProductWatchRig rig(products);
   CHECK_THAT(rig.run(0.0, 900.0), !Catch::Contains("!"));
   CHECK_THAT(rig.run(901.0, 910.0), Catch::StartsWith("!leo_elements: none holds any more"));
   // A longer age can be configured there.
