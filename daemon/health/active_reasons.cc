@@ -8,13 +8,13 @@ namespace leonav {
 namespace {
 
 // Of what a run meets; no limits.
-constexpr std::size_t kTextBytes = 2048;
+constexpr std::size_t kReasonBytes = 2048;
 
 }  // namespace
 
 ActiveReasons::ActiveReasons() {
   for (Case& one : cases_) one.detail.reserve(kDetailBytes);
-  text_.reserve(kTextBytes);
+  text_.reserve(kReasonBytes);
 }
 
 void ActiveReasons::raise(HealthReason reason, std::string_view detail) {

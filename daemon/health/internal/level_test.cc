@@ -7,14 +7,14 @@
 namespace leonav {
 namespace {
 
-constexpr std::size_t kTextBytes = 256;  // of what a run meets; no limit
+constexpr std::size_t kExceededBytes = 256;  // of what a run meets; no limit
 
 }  // namespace
 
 LevelTest::LevelTest(const IntegrityConfig& config)
     : horizontal_alert_limit_m_(config.horizontal_alert_limit_m),
       vertical_alert_limit_m_(config.vertical_alert_limit_m) {
-  exceeded_.reserve(kTextBytes);
+  exceeded_.reserve(kExceededBytes);
 }
 
 std::string_view LevelTest::exceeded(const EngineCounters& counters) {
