@@ -135,10 +135,11 @@ function(leonav_catch2)
                          PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 
-# leonav_test(target folder [DEPENDS ...] [EXCLUDE folder...]): one Catch2 program per folder,
-# without the folders in it that have a program of their own; skipped while empty.
+# leonav_test(target folder [DEPENDS ...] [EXCLUDE folder...] [APART source...]): one Catch2 program per folder,
+# without the folders in it that have a program of their own; skipped while empty. What is in a source named behind APART
+# is run as a test of its own, so that another processor can run it.
 function(leonav_test target folder)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;EXCLUDE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;EXCLUDE;APART" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
   foreach(excluded ${ARG_EXCLUDE})
     list(FILTER sources EXCLUDE REGEX "^${CMAKE_SOURCE_DIR}/${excluded}/")
@@ -162,12 +163,25 @@ function(leonav_test target folder)
     # uninitialized, and numbers of two digits for longer ones.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-format-truncation>)
   endif()
-  add_test(NAME ${target} COMMAND ${target})
+  set(tests ${target})
+  set(rest "")
+  foreach(source ${ARG_APART})
+    if(NOT EXISTS ${CMAKE_SOURCE_DIR}/${folder}/${source}.cc)
+      message(FATAL_ERROR "${target}: ${folder} has no ${source}.cc")
+    endif()
+    string(APPEND rest "~[#${source}]")
+    add_test(NAME ${source} COMMAND ${target} --filenames-as-tags "[#${source}]")
+    list(APPEND tests ${source})
+  endforeach()
+  if(rest)
+    list(PREPEND rest --filenames-as-tags)
+  endif()
+  add_test(NAME ${target} COMMAND ${target} ${rest})
   set(limit_s 1800)  # for what hangs; the longest takes five to fifteen minutes
   if(LEONAV_SANITIZE)
     set(limit_s 3600)
   endif()
-  set_tests_properties(${target} PROPERTIES TIMEOUT ${limit_s})
+  set_tests_properties(${tests} PROPERTIES TIMEOUT ${limit_s})
 endfunction()
 
 # leonav_script_test(name script argument...): a test that is a script of the source tree.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "scenario/edited_log.h"
 #include "scenario/recorded_runs.h"
@@ -100,19 +101,18 @@ TEST_CASE("the drive with one epoch stamped late") {
   const std::string judge = "--remove-offset --truth " + shared_data("drive/truth.csv");
   const KindOfRun drive("drive, offset removed", place, imported(place, "drive"), config("phone"),
                         judge);
-  for (const int which : {300, 1000}) {
-    for (const int late_ms : {50, 100, 300, 2500}) {
-      const auto stamped_late = [=](int n, RawEpoch* epoch) {
-        if (n == which) epoch->time = epoch->time.plus_seconds(1e-3 * late_ms);
-        return true;
-      };
-      // An epoch whose stamp is not later than that of one already answered is dropped as late.
-      const int overtaken = late_ms / 1000;
-      drive.check(
-          "epoch " + std::to_string(which) + " stamped " + std::to_string(late_ms) + " ms late",
-          stamped_late, kEpochs - overtaken, 1.17);
-      CHECK(drive.events("late_epoch") == overtaken);
-    }
+  const std::pair<int, int> late[] = {{300, 50}, {1000, 100}, {300, 300}, {1000, 2500}};
+  for (const auto& [which, late_ms] : late) {
+    const auto stamped_late = [which = which, late_ms = late_ms](int n, RawEpoch* epoch) {
+      if (n == which) epoch->time = epoch->time.plus_seconds(1e-3 * late_ms);
+      return true;
+    };
+    // An epoch whose stamp is not later than that of one already answered is dropped as late.
+    const int overtaken = late_ms / 1000;
+    drive.check(
+        "epoch " + std::to_string(which) + " stamped " + std::to_string(late_ms) + " ms late",
+        stamped_late, kEpochs - overtaken, 1.17);
+    CHECK(drive.events("late_epoch") == overtaken);
   }
 }
 

@@ -309,9 +309,10 @@ TEST_CASE("precise orbits 15 m off the broadcast ones degrade HEALTH, and are co
     watched.receive(Channel::kOrbitClock, encoder.encode(nodes, ++sequence));
   }
   watched.feed(everything);
-  CHECK(watched.at(60.0) ==
-        "DEGRADED: precise orbits contradict the broadcast ones: the broadcast ones are used, look "
-        "at the source of corrections and of ephemerides");
+  CHECK(
+      watched.at(60.0) ==
+      "DEGRADED: precise orbits contradict the broadcast ones: look at the sources of corrections "
+      "and ephemerides (the broadcast ones are used)");
   const auto& counts = watched.message().counts;
   const auto refused = std::find_if(counts.begin(), counts.end(), [](const count_t& count) {
     return count.name == "orbits refused";
