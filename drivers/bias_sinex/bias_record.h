@@ -17,6 +17,7 @@ struct BiasRecord {
   SignalCode second;     // unset: an OSB
   GpsTime from, until;   // unset `from`: since ever; without an end `until` is kNoEnd
   double value_s = 0.0;  // to be subtracted from the measured code
+  long line = 0;         // of the file
 };
 
 // The end of a validity without end.

@@ -1,6 +1,7 @@
 #include "drivers/bias_sinex/bias_sinex_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -126,6 +127,7 @@ class Reader {
     std::string why;
     switch (parse_bias_record(line, time_system_, &record, &why)) {
       case BiasLine::kRecord:
+        record.line = lines_.line_number();
         keep(record);
         break;
       case BiasLine::kOtherSystem:
@@ -167,8 +169,14 @@ class Reader {
   }
 
   void add(const BiasRecord& r) {
-    file_.biases.push_back(
-        {r.satellite, r.first, BiasKind::kCode, {}, kSpeedOfLight * r.value_s, r.from, r.until});
+    const double bias_m = kSpeedOfLight * r.value_s;
+    if (std::abs(bias_m) > kLargestBias_m) {
+      return damaged(to_string(r.satellite) + " has a bias of " +
+                         std::to_string(std::lround(bias_m)) + " m for its code " +
+                         to_string(r.first) + "; the largest is 1000 m",
+                     r.line);
+    }
+    file_.biases.push_back({r.satellite, r.first, BiasKind::kCode, {}, bias_m, r.from, r.until});
   }
 
   void make_biases() {
@@ -182,7 +190,10 @@ class Reader {
       const DifferenceResult result = resolve_differences(
           differences,
           named != references_.end() ? named->second : usual_references(satellite.system));
-      for (const BiasRecord& bias : result.biases) add(bias);
+      for (BiasRecord bias : result.biases) {
+        bias.line = differences.front().line;
+        add(bias);
+      }
       if (!result.biases.empty()) file_.differences += differences.size();
       file_.without_reference += result.unconnected.size();
       for (const SignalCode code : result.unconnected) {
@@ -196,11 +207,10 @@ class Reader {
                      });
   }
 
-  void damaged(const std::string& what) {
+  void damaged(const std::string& what) { damaged(what, lines_.line_number()); }
+  void damaged(const std::string& what, long line) {
     ++file_.damaged_lines;
-    if (file_.problems.size() < kMaxProblems) {
-      file_.problems.push_back({lines_.line_number(), what});
-    }
+    if (file_.problems.size() < kMaxProblems) file_.problems.push_back({line, what});
   }
 
   [[noreturn]] void fail_without_biases() const {

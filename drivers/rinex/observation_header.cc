@@ -153,16 +153,13 @@ std::optional<std::string> ObservationHeaderParser::scale_line(std::string_view 
   return std::nullopt;
 }
 
-void ObservationHeaderParser::apply_scales() {
+double ObservationHeaderParser::scale_of(char system, const std::string& name) const {
+  double factor = 1.0;
   for (const Scale& scale : scales_) {
-    const auto types = header_.types.find(scale.system);
-    if (types == header_.types.end()) continue;
-    for (std::size_t i = 0; i < types->second.size(); ++i) {
-      const bool named = std::find(scale.names.begin(), scale.names.end(),
-                                   names_[scale.system][i]) != scale.names.end();
-      if (named || scale.names.empty()) types->second[i].scale = scale.factor;
-    }
+    const bool named = std::find(scale.names.begin(), scale.names.end(), name) != scale.names.end();
+    if (scale.system == system && (named || scale.names.empty())) factor = scale.factor;
   }
+  return factor;
 }
 
 std::optional<std::string> ObservationHeaderParser::finish() {
@@ -182,12 +179,12 @@ std::optional<std::string> ObservationHeaderParser::finish() {
     types.clear();
     for (const std::string& name : names) {
       types.push_back(observation_type_3(system, name, header_.version_hundredths));
+      types.back().scale = scale_of(system, name);
     }
   }
   if (header_.types.empty()) {
     return "the header lists no observation types; without them no value has a meaning";
   }
-  apply_scales();
   return std::nullopt;
 }
 

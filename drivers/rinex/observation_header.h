@@ -64,7 +64,7 @@ class ObservationHeaderParser {
   std::optional<std::string> types_line(std::string_view line);
   std::optional<std::string> scale_line(std::string_view line);
   std::optional<std::string> types_line_2(std::string_view line);
-  void apply_scales();
+  double scale_of(char system, const std::string& name) const;
 
   struct Scale {
     char system = 0;

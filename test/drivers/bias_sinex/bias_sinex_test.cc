@@ -169,6 +169,19 @@ TEST_CASE("a damaged record costs itself and is told with its line", "[bias_sine
   }
 }
 
+TEST_CASE("differences that make a bias of over a thousand metres are told", "[bias_sinex]") {
+  const BiasSinexFile file =
+      read_bias_text(file_of(record("OSB", "G01", "C1C", "", kDay1, kDay2, 1.0) +
+                             record("DSB", "E11", "C1C", "C5Q", kDay1, kDay2, 2900.0)));
+  REQUIRE(file.biases.size() == 2);
+  CHECK(to_string(file.biases[0].satellite) == "G01");
+  CHECK(to_string(file.biases[1].code) == "5Q");
+  CHECK(std::abs(file.biases[1].bias_m) <= kLargestBias_m);
+  REQUIRE(file.problems.size() == 1);
+  CHECK(file.problems[0].line == 11);
+  CHECK(file.problems[0].what.find("E11 has a bias of") == 0);
+}
+
 TEST_CASE("records of other things are counted apart", "[bias_sinex]") {
   std::string sloped = record("OSB", "G03", "C1C", "", kDay1, kDay2, 1.0);
   sloped.back() = ' ';

@@ -22,6 +22,15 @@ std::string types_2(const std::string& content) {
 
 }  // namespace
 
+TEST_CASE("RINEX 2: a scale factor, which is a line of RINEX 3, changes nothing", "[rinex]") {
+  const auto read = read_text(
+      header_2(types_2("     2    C1    L1") + header_line("C  100   1 C2I", "SYS / SCALE FACTOR") +
+               header_line("G  100", "SYS / SCALE FACTOR")) +
+      " 06  3 24 13 10 36.1234567  0  1G01\n" + field(2e7) + field(1e8) + "\n");
+  REQUIRE(read.epochs.size() == 1);
+  CHECK(find(read.epochs[0], "G01", "1C")->pseudorange_m == 2e7);
+}
+
 TEST_CASE("RINEX 2: satellite lists over several lines, values over several lines", "[rinex]") {
   std::string text = header_2(types_2("     7    C1    P1    L1    L2    P2    D1    S1")) +
                      " 06  3 24 13 10 36.1234567  0 14G01G02G03G 4G05G06G07G08G09G10R11E12\n"

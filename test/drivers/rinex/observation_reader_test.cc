@@ -72,6 +72,18 @@ TEST_CASE("RINEX 3: continued type lists, scale factors, strength digits", "[rin
   CHECK(find(read.epochs[0], "G01", "5Q")->carrier_cycles == 77'000'000.555);
 }
 
+TEST_CASE("RINEX 3: scale factors of LEO go by the letter of the list", "[rinex]") {
+  const auto range = [](const std::string& letter) {
+    const auto read =
+        read_text(header_3("3.05", types_3("O    2 C1C L1C") + header_line(letter + "  100   1 C1C",
+                                                                           "SYS / SCALE FACTOR")) +
+                  epoch_3("1.0000000", 0, 1) + "O07" + field(2e8) + field(1e7) + "\n");
+    return read.epochs.at(0).observations.at(0).pseudorange_m;
+  };
+  CHECK(range("O") == 2e6);
+  CHECK(range("L") == 2e8);
+}
+
 TEST_CASE("RINEX 3: BeiDou's B1I goes by the version", "[rinex]") {
   const std::string body = epoch_3("1.0000000", 0, 1) + "C21" + field(3e7) + "\n";
   const auto code = [&body](const std::string& version, const std::string& type) {
