@@ -173,7 +173,8 @@ class Reader {
     if (std::abs(bias_m) > kLargestBias_m) {
       return damaged(to_string(r.satellite) + " has a bias of " +
                          std::to_string(std::lround(bias_m)) + " m for its code " +
-                         to_string(r.first) + "; the largest is 1000 m",
+                         to_string(r.first) + "; the largest is " +
+                         std::to_string(std::lround(kLargestBias_m)) + " m",
                      r.line);
     }
     file_.biases.push_back({r.satellite, r.first, BiasKind::kCode, {}, bias_m, r.from, r.until});

@@ -15,8 +15,7 @@ constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 // The values of all epochs are kept, for exact percentiles: a day at 10 Hz is 7 MB each.
 DopRange range_of(std::vector<float> values) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  if (values.empty()) return {0, kUnknown, kUnknown, kUnknown};
+  if (values.empty()) return {0, kNoValue, kNoValue, kNoValue};
   std::sort(values.begin(), values.end());
   const auto at = [&](double share) {
     const double place = std::ceil(share * static_cast<double>(values.size())) - 1.0;

@@ -21,7 +21,7 @@ namespace leonav {
 // the same sense, one of the two clocks has stepped: the line begins anew with them, and the step
 // is counted. So it does where the sender's clock leaps by years and stays there, as when a sensor
 // learns the date. A second whose clock is not later than the last one's, as from two sensors on
-// one wire, is left out; before there is a line, it is the first of a new one.
+// one wire, is left out; before there is a line, the points begin anew with it.
 class EnvelopeLine {
  public:
   static constexpr std::size_t kWindow = 60;      // seconds

@@ -53,7 +53,14 @@ class Target:
     def end_all(*_):
         Target.is_ending = True
         for process in list(Target.running):
-            process.terminate()
+            Target.end(process)
+
+    @staticmethod
+    def end(process):
+        try:
+            os.kill(process.pid, signal.SIGTERM)  # Popen.terminate() would take its exit code from os.wait4()
+        except ProcessLookupError:
+            pass
 
     def __init__(self, program, out, name, runs):
         self.program, self.name, self.folder, self.runs = program, name, out / name, runs
@@ -95,6 +102,8 @@ class Target:
         with open(self.log, "w", encoding="utf-8", errors="replace") as log:
             process = subprocess.Popen(command, env=environment, stdout=log, stderr=log, start_new_session=True)
             Target.running.add(process)
+            if Target.is_ending:
+                Target.end(process)
             _, status, usage = os.wait4(process.pid, 0)
         Target.running.discard(process)
         self.code = process.returncode = os.waitstatus_to_exitcode(status)

@@ -97,7 +97,7 @@ TEST_CASE("A clock that learns the date begins a line of its own", "[connect]") 
   CHECK_FALSE(line.agrees(-4'000'000'000'000'000'000, 0));
 }
 
-TEST_CASE("Two clocks on one wire leave a line that holds for one of them", "[connect]") {
+TEST_CASE("Two clocks on one wire make no line that is not finite", "[connect]") {
   EnvelopeLine line;
   std::int64_t arrival_ns = 0;
   for (int i = 0; i < 100; ++i) {
