@@ -3,8 +3,8 @@
   fuzz.py PROGRAM OUT [--seconds S | --minutes M] [--runs N] [--jobs N] [TARGET...]
 
 OUT/TARGET/corpus is the corpus that grows, OUT/TARGET/log what libFuzzer said last, OUT/TARGET/executions the number of executions of
-all runs and the seconds of a processor that they took, OUT/TARGET/*-HASH the inputs that were findings. Ctrl-C and SIGTERM end the run;
-what was executed until then counts.
+all runs and the seconds of a processor that they took, OUT/TARGET/*-HASH the inputs that were findings. Ctrl-C and SIGTERM end the run
+with exit code 130; what was executed until then counts.
 """
 import argparse
 import concurrent.futures
@@ -183,7 +183,7 @@ def main():
         for target in failed:
             for path in target.findings() or [target.log]:
                 print(f"{target.name}: {path}", file=sys.stderr)
-    sys.exit(1 if failed else 0)
+    sys.exit(1 if failed else 130 if Target.is_ending else 0)
 
 
 if __name__ == "__main__":
