@@ -80,6 +80,7 @@ void EnvelopeLine::close_second() {
   }
   odd_.clear();
   if (!points_.empty() && point.x_ns <= points_.back().x_ns) {
+    ++setbacks_;
     if (is_ready_) return;  // a line that holds learns nothing from it
     points_.clear();
   }

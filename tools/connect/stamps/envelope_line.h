@@ -48,6 +48,8 @@ class EnvelopeLine {
   double drift() const { return slope_; }  // of the host's clock against the sender's
   std::uint64_t steps() const { return steps_; }
   double last_step_s() const { return last_step_s_; }  // arrivals later by so much than before
+  // Seconds whose clock was not later than the last one's.
+  std::uint64_t setbacks() const { return setbacks_; }
 
  private:
   struct Point {
@@ -70,6 +72,7 @@ class EnvelopeLine {
   double offset_ns_ = 0.0, slope_ = 0.0, sigma_s_ = 0.0;
   std::uint64_t steps_ = 0;
   double last_step_s_ = 0.0;
+  std::uint64_t setbacks_ = 0;
 };
 
 }  // namespace leonav

@@ -122,7 +122,12 @@ std::string ImuStamper::text() const {
     case Kind::kNone:
       break;
   }
-  if (!line_.is_ready()) return "no stamps yet: too few readings with a clock";
+  if (!line_.is_ready()) {
+    return line_.setbacks() > 1
+               ? "no stamps yet: the sensor's clock goes back again and again; is it one sensor "
+                 "alone on this stream?"
+               : "no stamps yet: too few readings with a clock";
+  }
   return gps_->is_known()
              ? "readings contradict the clock that they had before"
              : "no stamps yet: GPS time is not known, as no receiver's epoch has come; its stream "
