@@ -49,14 +49,14 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
-// The value of a map's key; undefined if absent.
-YAML::Node entry_of(const YAML::Node& map, std::string_view key) {
-  if (map.IsDefined() && map.IsMap()) {
+// The value of a map's key.
+std::optional<YAML::Node> entry_of(const YAML::Node& map, std::string_view key) {
+  if (map.IsMap()) {
     for (const auto& entry : map) {
       if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
     }
   }
-  return YAML::Node(YAML::NodeType::Undefined);
+  return std::nullopt;
 }
 
 // "FILE:LINE", or "--set".
@@ -78,8 +78,7 @@ ConfigReader::ConfigReader(ConfigSource* source, std::vector<ConfigNode> nodes, 
 
 ConfigReader::Found ConfigReader::look_up(const char* key) const {
   for (auto one = nodes_.rbegin(); one != nodes_.rend(); ++one) {
-    const YAML::Node node = entry_of(one->node, key);
-    if (node.IsDefined()) return ConfigNode{one->layer, node};
+    if (const auto node = entry_of(one->node, key)) return ConfigNode{one->layer, *node};
   }
   return std::nullopt;
 }
@@ -294,8 +293,9 @@ void ConfigReader::group(const char* key, const std::function<void(ConfigReader&
   attempt([&] {
     std::vector<ConfigNode> parts;
     for (const ConfigNode& one : nodes_) {
-      const ConfigNode part{one.layer, entry_of(one.node, key)};
-      if (!part.node.IsDefined()) continue;
+      const auto node = entry_of(one.node, key);
+      if (!node) continue;
+      const ConfigNode part{one.layer, *node};
       if (part.layer->command_line && part.node.IsNull()) {
         fail_at(part, key, "set one key at a time");
       }

@@ -24,7 +24,7 @@ SHORTEST = 1024  # bytes: an input may be as long as the longest seed, and at le
 HABITS = ["-reload=0", "-print_funcs=0", "-entropic_scale_per_exec_time=1", "-print_final_stats=1"]
 # Freed memory is kept back for little longer than an input runs, so that it fits a processor's cache, and stays mapped; where it was
 # taken is told when a finding is repeated without these.
-SANITIZER = "quarantine_size_mb=1:allocator_release_to_os_interval_ms=-1:malloc_context_size=1"
+SANITIZER = "quarantine_size_mb=0:thread_local_quarantine_size_kb=256:allocator_release_to_os_interval_ms=-1:malloc_context_size=1"
 FIRST_S = 5  # how long a target runs to find its rate
 RUNS = 10_000_000
 FINDINGS = ("crash-*", "timeout-*", "oom-*", "leak-*")
