@@ -22,7 +22,7 @@ struct LcmConfig {
   // ttl=0: messages stay on this host.
   std::string url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
   std::string prefix = "LEONAV_";
-  int receive_queue = 4096;  // messages per channel that liblcm keeps while `io` is busy
+  int receive_queue = 4096;  // messages per channel that liblcm keeps at most while `io` is busy
 
   bool operator==(const LcmConfig&) const = default;
 };

@@ -218,7 +218,7 @@ void require_in_time(const NavigatorConfig& config, const SolveTime& time) {
                   available.iterations, available.limit_s * 1e3, realtime.epoch_interval_s,
                   config.smoother.keyframe_interval_s);
   }
-  throw ConfigError(text.data());
+  throw std::runtime_error(text.data());
 }
 
 }  // namespace leonav

@@ -32,8 +32,9 @@ struct TimeToSolve {
 // is no deadline, and elapsed time ends no solve: all iterations must end before the next keyframe.
 TimeToSolve time_to_solve(const NavigatorConfig& config);
 
-// Throws ConfigError where they take more than half of that time: the filter needs some of it too,
-// and a machine is not always as quick.
+// Throws std::runtime_error where they take more than half of that time: the filter needs some of
+// it too, and a machine is not always as quick. It is no ConfigError: a processor that is throttled
+// at the start is not so for ever, so that a service manager has to try again.
 void require_in_time(const NavigatorConfig& config, const SolveTime& time);
 
 }  // namespace leonav

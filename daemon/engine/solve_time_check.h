@@ -5,7 +5,7 @@
 namespace leonav {
 
 // Measures in a thread of its own, before the stages' threads are started, and logs the time. Does
-// nothing where the smoother does not give the answer. Throws ConfigError as require_in_time().
+// nothing where the smoother does not give the answer. Throws as require_in_time().
 void check_solve_time(const NavigatorConfig& config);
 
 }  // namespace leonav

@@ -4,9 +4,13 @@
 #include <utility>
 
 #include "core/navigator/interface/input_fault.h"
+#include "daemon/health/internal/sign_of_life.h"
+#include "daemon/health/internal/solution_interval.h"
 
 namespace leonav {
 namespace {
+
+constexpr double kLongestPause_s = 60.0;
 
 // Inputs of the channel that were refused for nothing but their time.
 std::int64_t refused_for_time(const EngineCounters& counters, Channel channel) {
@@ -18,7 +22,12 @@ std::int64_t refused_for_time(const EngineCounters& counters, Channel channel) {
 
 }  // namespace
 
-bool AnswerMonitor::stands_still(bool expects_imu) {
+AnswerMonitor::AnswerMonitor(Engine* engine, const NavigatorConfig& config)
+    : engine_(engine),
+      expects_imu_(config.motion == MotionModel::kInertial),
+      most_looks_(std::max(kLongestPause_s, kIntervalsTolerated * solution_interval(config))) {}
+
+bool AnswerMonitor::stands_still() {
   EngineCounters& counters = engine_->counters();
   const std::int64_t solution_ns = counters.solution_time_ns.get();
   const auto grows = [](std::int64_t* last, std::int64_t count) {
@@ -32,7 +41,7 @@ bool AnswerMonitor::stands_still(bool expects_imu) {
                  grows(&refused_epochs_, refused_for_time(counters, Channel::kGnssEpoch) +
                                              counters.late_epochs.get());
   const bool uses_none = !uses_imu && !uses_epoch;
-  const bool has_imu = uses_imu || (uses_none && refuses_imu) || !expects_imu;
+  const bool has_imu = uses_imu || (uses_none && refuses_imu) || !expects_imu_;
   const bool has_epoch = uses_epoch || (uses_none && refuses_epoch);
   const bool uses_satellites =
       std::any_of(counters.satellites_used.begin(), counters.satellites_used.end(),
@@ -42,7 +51,7 @@ bool AnswerMonitor::stands_still(bool expects_imu) {
   } else if (has_epoch) {  // a look without says nothing: epochs may come more rarely than looks
     ++looks_;
   }
-  return looks_ >= kMostLooks;
+  return looks_ >= most_looks_;
 }
 
 }  // namespace leonav

@@ -10,21 +10,23 @@ namespace leonav {
 // the watchdog is not fed.
 class AnswerMonitor {
  public:
-  explicit AnswerMonitor(Engine* engine) : engine_(engine) {}
+  AnswerMonitor(Engine* engine, const NavigatorConfig& config);
 
   // Returns whether there has been an answer, good inputs of each kind that it needs come,
-  // satellites are used, and yet no new SOLUTION has come for a minute. Call it once a second.
+  // satellites are used, and yet no new SOLUTION has come for a minute, or for two and a half of
+  // the configured intervals where that is longer. Call it once a second.
   //
   // An input is good if it is used. Where no input of any kind is used, one that is refused for its
   // time alone is good too: a Sequencer that is wrong about the time refuses everything. Where it
   // uses one kind and refuses another, their senders disagree about the time. Other faults are the
   // sender's (bytes that nobody can read, values that nothing measures, the same stamp again): they
   // would be there after a restart too.
-  bool stands_still(bool expects_imu);
+  bool stands_still();
 
  private:
-  static constexpr int kMostLooks = 60;
   Engine* engine_;
+  bool expects_imu_;
+  double most_looks_;
   std::int64_t solution_ns_ = 0, imu_ = 0, epochs_ = 0;
   std::int64_t refused_imu_ = 0, refused_epochs_ = 0;  // for their time
   int looks_ = 0;  // without a new solution although inputs came

@@ -1,6 +1,15 @@
 #include "daemon/health/thread_monitor.h"
 
+#include <algorithm>
+
+#include "daemon/engine/solve_time.h"
+
 namespace leonav {
+
+ThreadMonitor::ThreadMonitor(Engine* engine, const NavigatorConfig& config) : engine_(engine) {
+  if (config.motion != MotionModel::kInertial && config.estimator == Estimator::kSmoother)
+    most_looks_[1] = std::max(most_looks_[1], time_to_solve(config).limit_s);
+}
 
 std::string ThreadMonitor::stalled_threads() {
   static constexpr std::array<const char*, kThreads> kNames = {"ins", "gnss", "smoother", "out"};
@@ -12,7 +21,8 @@ std::string ThreadMonitor::stalled_threads() {
   for (std::size_t i = 0; i < now.size(); ++i) {
     const bool had_work = last_[i].done < last_[i].pushed;
     behind = behind || had_work;
-    if (had_work && now[i].done == last_[i].done) {
+    looks_[i] = had_work && now[i].done == last_[i].done ? looks_[i] + 1 : 0;
+    if (looks_[i] >= most_looks_[i]) {
       names += (names.empty() ? "" : ", ") + std::string(kNames[i]);
     }
   }

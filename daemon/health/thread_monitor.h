@@ -8,20 +8,22 @@
 
 namespace leonav {
 
-// A thread hangs if it had work at the last call and has finished nothing since. A thread without
-// work is idle, for however long.
+// A thread hangs if it has had work and finished nothing for longer than one piece of work may
+// take: from one look to the next, and `gnss` for as long as a solve has where it does all of it,
+// without an IMU. A thread without work is idle, for however long.
 class ThreadMonitor {
  public:
-  explicit ThreadMonitor(Engine* engine) : engine_(engine) {}
+  ThreadMonitor(Engine* engine, const NavigatorConfig& config);
 
-  // The names of the threads that hang, as in "gnss, out"; empty: none. Call it at intervals longer
-  // than a thread may take for one piece of work.
+  // The names of the threads that hang, as in "gnss, out"; empty: none. Call it once a second.
   std::string stalled_threads();
 
  private:
   Engine* engine_;
   static constexpr std::size_t kThreads = 4;
   std::array<WorkCount, kThreads> last_{};  // ins, gnss, smoother, out
+  std::array<double, kThreads> most_looks_ = {1.0, 1.0, 1.0, 1.0};
+  std::array<int, kThreads> looks_{};  // with work, of which nothing was finished
   std::int64_t last_io_rounds_ = -1;
 };
 

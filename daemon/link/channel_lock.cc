@@ -50,7 +50,7 @@ ChannelLock::ChannelLock(const LcmConfig& config) {
   if (!to) return;
   const AbstractAddress at = abstract_address("leonavd/" + to->group + ":" +
                                               std::to_string(to->port) + "/" + config.prefix);
-  descriptor_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  descriptor_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (descriptor_ < 0) throw LcmError(std::string("no Unix socket: ") + std::strerror(errno));
   if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&at.address), at.size) != 0) {
     const int error = errno;
@@ -65,6 +65,11 @@ ChannelLock::ChannelLock(const LcmConfig& config) {
 
 ChannelLock::~ChannelLock() {
   if (descriptor_ >= 0) close(descriptor_);
+}
+
+void ChannelLock::let_ask() const {
+  if (descriptor_ < 0) return;
+  for (int one = 0; (one = accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC)) >= 0;) close(one);
 }
 
 }  // namespace leonav

@@ -17,6 +17,7 @@ constexpr std::uint32_t kMagicAt = 8, kSizeAt = kMagicAt + 8, kNumberAt = kMagic
 constexpr std::uint32_t kChannelAt = kMagicAt + 8, kChannelOfFragmentAt = kMagicAt + 20;
 
 constexpr std::uint32_t kWholeDatagram = 0xFFFFFFFF, kNothing = 0;
+constexpr std::uint32_t kSize = 0;  // the filter's memory: of the data
 
 // Some bytes of a text that one instruction loads, as a number.
 struct Piece {
@@ -41,12 +42,12 @@ std::vector<Piece> pieces(std::string_view text, std::size_t begin) {
 }
 
 // How many characters all have alike at their beginning.
-std::size_t common_length(const std::vector<std::string>& texts) {
-  std::size_t length = texts.front().size();
-  for (const std::string& text : texts) {
-    const auto parted =
-        std::mismatch(text.begin(), text.end(), texts.front().begin(), texts.front().end()).first;
-    length = std::min(length, static_cast<std::size_t>(parted - text.begin()));
+std::size_t common_length(const std::vector<ReceivedChannel>& channels) {
+  const std::string& first = channels.front().name;
+  std::size_t length = first.size();
+  for (const auto& [name, most_bytes] : channels) {
+    const auto parted = std::mismatch(name.begin(), name.end(), first.begin(), first.end()).first;
+    length = std::min(length, static_cast<std::size_t>(parted - name.begin()));
   }
   return length;
 }
@@ -62,38 +63,47 @@ void compare(const Piece& piece, std::uint8_t if_equal, std::uint8_t otherwise,
 
 }  // namespace
 
-std::vector<sock_filter> datagram_filter(std::uint32_t most_bytes,
-                                         const std::vector<std::string>& channels) {
+std::vector<sock_filter> datagram_filter(const std::vector<ReceivedChannel>& channels) {
+  std::uint32_t most_bytes = 0;
+  for (const ReceivedChannel& channel : channels)
+    most_bytes = std::max(most_bytes, channel.most_bytes);
   // A datagram that is too short for what is loaded is dropped.
   std::vector<sock_filter> program = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kMagicAt),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kShortMagic, 10, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kShortMagic, 11, 0),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kFragmentMagic, 1, 0),
       BPF_STMT(BPF_RET | BPF_K, kNothing),
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kSizeAt),
       BPF_JUMP(BPF_JMP | BPF_JGT | BPF_K, most_bytes, 0, 1),
       BPF_STMT(BPF_RET | BPF_K, kNothing),
+      BPF_STMT(BPF_ST, kSize),
       BPF_STMT(BPF_LD | BPF_H | BPF_ABS, kNumberAt),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0, 1, 0),
       BPF_STMT(BPF_RET | BPF_K, kWholeDatagram),
       BPF_STMT(BPF_LDX | BPF_W | BPF_IMM, kChannelOfFragmentAt),
-      BPF_STMT(BPF_JMP | BPF_JA, 1),
+      BPF_STMT(BPF_JMP | BPF_JA, 4),
       BPF_STMT(BPF_LDX | BPF_W | BPF_IMM, kChannelAt),
+      BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0),
+      BPF_STMT(BPF_ALU | BPF_SUB | BPF_X, 0),
+      BPF_STMT(BPF_ST, kSize),
   };
   const std::size_t common = common_length(channels);
-  for (const Piece& piece : pieces(std::string_view(channels.front()).substr(0, common), 0)) {
+  for (const Piece& piece : pieces(std::string_view(channels.front().name).substr(0, common), 0)) {
     compare(piece, 1, 0, &program);
     program.push_back(BPF_STMT(BPF_RET | BPF_K, kNothing));
   }
-  for (const std::string& channel : channels) {
+  for (const ReceivedChannel& channel : channels) {
     // With the zero byte.
-    const std::vector<Piece> rest = pieces({channel.c_str(), channel.size() + 1}, common);
+    const std::vector<Piece> rest = pieces({channel.name.c_str(), channel.name.size() + 1}, common);
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      // The pieces behind it, two instructions each, and what passes the datagram.
-      const auto to_next_channel = static_cast<std::uint8_t>(2 * (rest.size() - 1 - i) + 1);
+      // The pieces behind it, two instructions each, and the four that judge the size.
+      const auto to_next_channel = static_cast<std::uint8_t>(2 * (rest.size() - 1 - i) + 4);
       compare(rest[i], 0, to_next_channel, &program);
     }
+    program.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_MEM, kSize));
+    program.push_back(BPF_JUMP(BPF_JMP | BPF_JGT | BPF_K, channel.most_bytes, 1, 0));
     program.push_back(BPF_STMT(BPF_RET | BPF_K, kWholeDatagram));
+    program.push_back(BPF_STMT(BPF_RET | BPF_K, kNothing));
   }
   program.push_back(BPF_STMT(BPF_RET | BPF_K, kNothing));
   return program;

@@ -8,11 +8,14 @@
 
 namespace leonav {
 
+struct ReceivedChannel {
+  std::string name;          // 63 characters at most
+  std::uint32_t most_bytes;  // of a message's data, and of its name where both are in one datagram
+};
+
 // A program for a UDP socket (SO_ATTACH_FILTER). It passes datagrams of LCM messages on `channels`
-// whose data have at most `most_bytes`. The channel stands in the first datagram of a message, so
-// that later ones pass by the size alone. There must be a channel; a name has 63 characters at
-// most.
-std::vector<sock_filter> datagram_filter(std::uint32_t most_bytes,
-                                         const std::vector<std::string>& channels);
+// that are short enough. The channel stands in the first datagram of a message, so that later ones
+// pass if they are short enough for any channel. There must be a channel.
+std::vector<sock_filter> datagram_filter(const std::vector<ReceivedChannel>& channels);
 
 }  // namespace leonav

@@ -9,8 +9,6 @@
 #include <filesystem>
 #include <iterator>
 
-#include "daemon/link/datagram_filter.h"
-
 namespace leonav {
 namespace {
 
@@ -39,9 +37,8 @@ std::set<int> udp_sockets() {
 
 MessageLimit::MessageLimit() : before_(udp_sockets()) {}
 
-std::string MessageLimit::apply(std::uint32_t most_bytes,
-                                const std::vector<std::string>& channels) const {
-  std::vector<sock_filter> program = datagram_filter(most_bytes, channels);
+std::string MessageLimit::apply(const std::vector<ReceivedChannel>& channels) const {
+  std::vector<sock_filter> program = datagram_filter(channels);
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
   const std::set<int> now = udp_sockets();
   std::set<int> opened;

@@ -1,9 +1,10 @@
 // The MessageLimit keeps LCM from taking memory for messages that are no inputs or too long.
 #pragma once
-#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "daemon/link/datagram_filter.h"
 
 namespace leonav {
 
@@ -15,8 +16,8 @@ namespace leonav {
 class MessageLimit {
  public:
   MessageLimit();
-  // `channels`: full names, one at least. Returns why there is no limit; empty: there is.
-  std::string apply(std::uint32_t most_bytes, const std::vector<std::string>& channels) const;
+  // `channels`: one at least. Returns why there is no limit; empty: there is.
+  std::string apply(const std::vector<ReceivedChannel>& channels) const;
 
  private:
   std::set<int> before_;

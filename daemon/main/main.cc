@@ -99,7 +99,7 @@ int run(const CommandLine& command_line) {
 
   ConfigReload reload([&] { return command_line.load_again(); }, &config, &engine.journal(),
                       gate.get());
-  Supervisor supervisor(&engine, config, &manager, &reload);
+  Supervisor supervisor(&engine, config, &manager, &lock, &reload);
   manager.ready();
   supervisor.run(&*signals, io);
   manager.stopping();

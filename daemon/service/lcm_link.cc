@@ -1,6 +1,7 @@
 #include "daemon/service/lcm_link.h"
 
-#include <utility>
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "daemon/config/lcm_url.h"
@@ -12,6 +13,22 @@
 namespace leonav {
 namespace {
 
+// Messages of a channel that wait for `io` take no more memory than this, whatever is sent.
+constexpr std::uint32_t kQueueBytes = 4 * 1024 * 1024;
+
+std::uint32_t most_bytes(Channel channel) {
+  switch (channel) {
+    case Channel::kImu:
+    case Channel::kEphemeris:
+    case Channel::kIonosphere:
+    case Channel::kCommand:
+    case Channel::kOdometer:
+      return wire::kMaxBytesWithoutList;
+    default:
+      return wire::kMaxMessageBytes;
+  }
+}
+
 ByteSpan bytes_of(const lcm_recv_buf_t* buffer) {
   return {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size};
 }
@@ -22,40 +39,45 @@ LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine
                          CommandGate* gate)
     : engine_(engine), gate_(gate), prefix_(config.prefix) {
   // A checkpoint comes from the file alone: who could send one could set the heading.
-  std::vector<std::pair<std::string, Handler>> inputs;
+  std::vector<Input> inputs;
   for (const Channel channel : kInputChannels)
-    if (channel != Channel::kCheckpoint) inputs.emplace_back(name_of(channel), &on_message);
-  if (gate_) inputs.emplace_back(kSignedCommandChannel, &on_signed_command);
+    if (channel != Channel::kCheckpoint)
+      inputs.push_back({prefix_ + std::string(name_of(channel)), most_bytes(channel), &on_message});
+  if (gate_) {
+    inputs.push_back({prefix_ + std::string(kSignedCommandChannel), wire::kMaxBytesWithoutList,
+                      &on_signed_command});
+  }
   const std::set<pid_t> before = threads_of_process();
   const MessageLimit limit;
   lcm_ = open_lcm(config.url);
   if (udpm_address(config.url)) {
     // liblcm opens its sockets with the first subscription: to a channel that nobody sends on, so
     // that no message is taken before the limit holds.
-    lcm_subscription_t* first = subscribe(config, "LIMIT", &on_nothing);
-    std::vector<std::string> channels;
-    for (const auto& [name, handler] : inputs) channels.push_back(prefix_ + name);
-    refused_ = limit.apply(wire::kMaxMessageBytes, channels);
+    lcm_subscription_t* first =
+        subscribe(config, {prefix_ + "LIMIT", wire::kMaxBytesWithoutList, &on_nothing});
+    std::vector<ReceivedChannel> channels;
+    for (const Input& input : inputs) channels.push_back({input.channel, input.most_bytes});
+    refused_ = limit.apply(channels);
     lcm_unsubscribe(lcm_->getUnderlyingLCM(), first);
   }
-  for (const auto& [name, handler] : inputs) subscribe(config, name, handler);
+  for (const Input& input : inputs) subscribe(config, input);
   for (const pid_t thread : threads_of_process()) {
-    if (!before.contains(thread) && refused_.empty()) refused_ = set_priority(thread, "of LCM", io);
+    if (!before.contains(thread) && refused_.empty()) refused_ = schedule(thread, "of LCM", io);
   }
 }
 
-lcm_subscription_t* LcmReceiver::subscribe(const LcmConfig& config, std::string_view channel,
-                                           Handler handler) {
-  const std::string name = prefix_ + std::string(channel);
+lcm_subscription_t* LcmReceiver::subscribe(const LcmConfig& config, const Input& input) {
   // The C++ interface would allocate the channel's name for each message, and crash where liblcm
   // cannot start its thread, which it does with the first subscription.
   lcm_subscription_t* subscription =
-      lcm_subscribe(lcm_->getUnderlyingLCM(), name.c_str(), handler, this);
+      lcm_subscribe(lcm_->getUnderlyingLCM(), input.channel.c_str(), input.handler, this);
   if (subscription == nullptr)
     throw LcmError("LCM at '" + config.url +
                    "' starts no thread that receives; see the message above; give it more memory "
                    "or threads (MemoryMax= and TasksMax= of its unit, ulimit -v and -u)");
-  lcm_subscription_set_queue_capacity(subscription, config.receive_queue);
+  lcm_subscription_set_queue_capacity(
+      subscription,
+      std::min(config.receive_queue, static_cast<int>(kQueueBytes / input.most_bytes)));
   return subscription;
 }
 

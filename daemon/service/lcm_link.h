@@ -31,7 +31,12 @@ class LcmReceiver {
 
  private:
   using Handler = void (*)(const lcm_recv_buf_t* buffer, const char* name, void* self);
-  lcm_subscription_t* subscribe(const LcmConfig& config, std::string_view channel, Handler handler);
+  struct Input {
+    std::string channel;  // full name
+    std::uint32_t most_bytes;
+    Handler handler;
+  };
+  lcm_subscription_t* subscribe(const LcmConfig& config, const Input& input);
   static void on_nothing(const lcm_recv_buf_t* buffer, const char* name, void* self);
   static void on_message(const lcm_recv_buf_t* buffer, const char* name, void* self);
   static void on_signed_command(const lcm_recv_buf_t* buffer, const char* name, void* self);

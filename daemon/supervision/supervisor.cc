@@ -8,14 +8,14 @@
 namespace leonav {
 
 Supervisor::Supervisor(Engine* engine, const DaemonConfig& config, const ServiceManager* manager,
-                       ConfigReload* reload)
+                       const ChannelLock* channels, ConfigReload* reload)
     : engine_(engine),
       manager_(manager),
+      channels_(channels),
       reload_(reload),
-      expects_imu_(config.navigator.motion == MotionModel::kInertial),
       health_(engine, config.navigator),
-      threads_(engine),
-      answer_(engine),
+      threads_(engine, config.navigator),
+      answer_(engine, config.navigator),
       checkpoint_log_(engine),
       journal_log_(config.journal.path, &engine->journal()) {}
 
@@ -44,11 +44,12 @@ bool Supervisor::wait_for_stop(ProcessSignals* signals) {
 void Supervisor::look() {
   const std::string stalled_threads = threads_.stalled_threads();
   engine_->publish(Channel::kHealth, health_.next(stalled_threads));
-  const bool stands_still = answer_.stands_still(expects_imu_);
+  const bool stands_still = answer_.stands_still();
   health_log_.look(&health_, stalled_threads, stands_still);
   checkpoint_log_.look();
   journal_log_.look(health_.journal());
   if (keep_rule_.look(health_.fault())) engine_->keep_journal();
+  channels_->let_ask();
   if (stalled_threads.empty() && !stands_still) manager_->feed_watchdog();
 }
 

@@ -7,6 +7,7 @@
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/keep_rule.h"
 #include "daemon/health/thread_monitor.h"
+#include "daemon/link/channel_lock.h"
 #include "daemon/link/service_manager.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/service/receiving_thread.h"
@@ -18,11 +19,12 @@
 namespace leonav {
 
 // Once a second it publishes HEALTH, logs what has changed, has the journal keep what led up to a
-// fault, and feeds the watchdog unless a thread hangs or the answer stands still.
+// fault, lets other daemons ask for the channels, and feeds the watchdog unless a thread hangs or
+// the answer stands still.
 class Supervisor {
  public:
   Supervisor(Engine* engine, const DaemonConfig& config, const ServiceManager* manager,
-             ConfigReload* reload);
+             const ChannelLock* channels, ConfigReload* reload);
 
   // Returns once a signal asks for it, or `io` has failed. SIGHUP reloads meanwhile.
   void run(ProcessSignals* signals, const ReceivingThread& io);
@@ -33,8 +35,8 @@ class Supervisor {
 
   Engine* engine_;
   const ServiceManager* manager_;
+  const ChannelLock* channels_;
   ConfigReload* reload_;
-  bool expects_imu_;
   HealthMonitor health_;
   ThreadMonitor threads_;
   AnswerMonitor answer_;

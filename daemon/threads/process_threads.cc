@@ -22,7 +22,15 @@ std::set<pid_t> threads_of_process() {
   return threads;
 }
 
-std::string set_priority(pid_t thread, const std::string& name, const ThreadConfig& config) {
+std::string schedule(pid_t thread, const std::string& name, const ThreadConfig& config) {
+  if (config.cpu >= 0) {
+    cpu_set_t cpus;
+    CPU_ZERO(&cpus);
+    if (config.cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(config.cpu), &cpus);
+    if (sched_setaffinity(thread, sizeof cpus, &cpus) != 0)
+      return "thread " + name + ": not pinned to processor " + std::to_string(config.cpu) + ": " +
+             std::strerror(errno);
+  }
   if (config.priority <= 0) return "";
   sched_param parameters{};
   parameters.sched_priority = config.priority;

@@ -1,4 +1,4 @@
-// These functions find the threads that a library has started, and give them a priority.
+// These functions find the threads that a library has started, and schedule them.
 #pragma once
 #include <sys/types.h>
 
@@ -13,6 +13,6 @@ namespace leonav {
 std::set<pid_t> threads_of_process();
 
 // Returns the settings that the system refused, as a text; empty: none. `name`: for that text.
-std::string set_priority(pid_t thread, const std::string& name, const ThreadConfig& config);
+std::string schedule(pid_t thread, const std::string& name, const ThreadConfig& config);
 
 }  // namespace leonav

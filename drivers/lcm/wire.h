@@ -19,6 +19,10 @@ inline constexpr std::int32_t kHealthSchema = 2;
 // (60.1 KiB).
 inline constexpr std::size_t kMaxMessageBytes = 64 * 1024;
 
+// No message without a list of its own is longer: imu_t, ephemeris_t, leo_ephemeris_t,
+// ionosphere_t, odometer_t, command_t, signed_command_t.
+inline constexpr std::size_t kMaxBytesWithoutList = 1024;
+
 // Latest time that is accepted: week 10000 (year 2171). Later ones are wrong and near the end of
 // the 64-bit range.
 inline constexpr std::int64_t kMaxTimeNs = 10'000 * kNanosecondsPerWeek;

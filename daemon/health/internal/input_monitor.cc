@@ -77,14 +77,19 @@ void InputMonitor::look_at_stream(const Gauge& accepted, double now_s, Channel c
 
 std::string_view InputMonitor::why_no_epoch(bool none_since_start) {
   const bool had_imu = counters_->accepted_imu.get() > 0;
-  if (counters_->received[index_of(Channel::kGnssEpoch)].get() == 0) return "no GNSS has come";
+  if (counters_->received[index_of(Channel::kGnssEpoch)].get() == 0)
+    return "no GNSS has come: look at its sender and lcm.url";
   if (counters_->accepted_epochs.get() == 0) return with_clocks("all GNSS epochs are rejected");
   if (expects_imu_ && counters_->received[index_of(Channel::kImu)].get() == 0)
-    return "no IMU sample has come";
-  if (expects_imu_ && !had_imu) return with_fault("all IMU samples are rejected", Channel::kImu);
-  if (expects_imu_ && imu_.used.is_late()) return "no IMU sample is used any more";
+    return "no IMU sample has come: look at its sender and lcm.url";
+  if (expects_imu_ && !had_imu) {
+    with_fault("all IMU samples are rejected", Channel::kImu);
+    return detail_ += ": look at their sender";
+  }
+  if (expects_imu_ && imu_.used.is_late())
+    return "no IMU sample is used any more: look at its sender";
   if (!gnss_.used.is_late()) return "";
-  if (!are_clocks_apart()) return "no GNSS epoch is used any more";
+  if (!are_clocks_apart()) return "no GNSS epoch is used any more: look at its sender";
   // What was rejected before the start was compared with a time of the IMU that holds no more.
   if (none_since_start) return "";
   return with_clocks("the GNSS epochs are rejected");
@@ -115,8 +120,9 @@ bool InputMonitor::are_clocks_apart() const {
 
 std::string_view InputMonitor::with_clocks(std::string_view text) {
   with_fault(text, Channel::kGnssEpoch);
-  if (are_clocks_apart()) detail_ += ", their time is not that of the IMU: compare the two clocks";
-  return detail_;
+  return detail_ += are_clocks_apart()
+                        ? ", their time is not that of the IMU: compare the two clocks"
+                        : ": look at their sender";
 }
 
 }  // namespace leonav

@@ -1,10 +1,10 @@
 #include "daemon/health/internal/solution_monitor.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "daemon/health/internal/counter_sums.h"
 #include "daemon/health/internal/findings.h"
+#include "daemon/health/internal/solution_interval.h"
 #include "daemon/text/alignment_text.h"
 
 namespace leonav {
@@ -14,12 +14,6 @@ constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not co
 // Like the longest hole over which the inertial answer is carried.
 constexpr double kAnswerLife_s = 10.0;
 constexpr double kIntervalsUntilFault = 10.0;
-
-double solution_interval(const NavigatorConfig& config) {
-  if (config.motion != MotionModel::kInertial) return config.realtime.epoch_interval_s;
-  return config.solution_rate_hz > 0.0 ? 1.0 / config.solution_rate_hz
-                                       : std::numeric_limits<double>::infinity();
-}
 
 }  // namespace
 
@@ -75,7 +69,7 @@ std::string_view SolutionMonitor::why_no_solution(InputMonitor* inputs,
   // The satellites are those of the epoch before.
   if (estimator.waits_for_epoch())
     return "the filter has started over and waits for the next GNSS epoch";
-  if (measured == 0) return "the GNSS epochs are without satellites";
+  if (measured == 0) return "the GNSS epochs are without satellites: look at the antenna";
   std::size_t most = 0;
   for (std::size_t i = 0; i < kReasonCount; ++i) {
     if (is_used(static_cast<Reason>(i)) || i == static_cast<std::size_t>(Reason::kNotSolved))
@@ -85,12 +79,12 @@ std::string_view SolutionMonitor::why_no_solution(InputMonitor* inputs,
   }
   const auto reason = static_cast<Reason>(most);
   if (reason == Reason::kUsed || 2 * satellite_count(*counters_, reason) < measured)
-    return "too few satellites with good codes so far";
+    return "too few satellites with good codes so far: wait under open sky";
   if (reason == Reason::kNoEphemeris)
     return "most satellites have no ephemeris: see that they are sent";
   detail_ = "most satellites are left out as ";
   detail_ += to_string(reason);
-  return detail_;
+  return detail_ += ": look at the antenna and at gnss in the configuration";
 }
 
 }  // namespace leonav

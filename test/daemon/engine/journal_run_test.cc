@@ -115,7 +115,7 @@ TEST_CASE("while the disk blocks, SOLUTION and HEALTH go on, and no thread count
   Engine engine(config, &outputs, hooks);
   engine.start();
   HealthMonitor health(&engine, config.navigator);
-  ThreadMonitor threads(&engine);
+  ThreadMonitor threads(&engine, config.navigator);
   {
     const std::lock_guard lock(mutex);
     blocked = true;

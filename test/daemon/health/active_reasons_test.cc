@@ -16,10 +16,11 @@ TEST_CASE("a reason stays for its hold and the worst one decides") {
   CHECK(reasons.status() == HealthStatus::kOk);
   CHECK(reasons.text().empty());
   reasons.raise(HealthReason::kDeadlineMissed);
-  reasons.raise(HealthReason::kNoSolutionYet, "no GNSS has come");
+  reasons.raise(HealthReason::kNoSolutionYet, "no GNSS has come: look at its sender and lcm.url");
   CHECK(reasons.status() == HealthStatus::kFault);
   CHECK(reasons.text() ==
-        "no solution yet (no GNSS has come); deadline missed: look at the machine's load");
+        "no solution yet (no GNSS has come: look at its sender and lcm.url); deadline missed: look "
+        "at the machine's load");
   reasons.begin(2.0);
   CHECK(reasons.status() == HealthStatus::kDegraded);
   CHECK(reasons.text() == "deadline missed: look at the machine's load");

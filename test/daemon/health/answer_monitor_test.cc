@@ -13,7 +13,8 @@ using test::Discard;
 // An engine that is not started: the test sets its counters, a second at each look.
 class Looks {
  public:
-  Looks() : engine_(test::drive_config(), &target_), monitor_(&engine_) {
+  explicit Looks(const NavigatorConfig& config = DaemonConfig().navigator)
+      : engine_(test::drive_config(), &target_), monitor_(&engine_, config) {
     engine_.counters().satellites_used[0].set(8);
   }
   bool look(bool has_input, bool has_answer) {
@@ -24,14 +25,14 @@ class Looks {
       counters.accepted_epochs.add(1);
     }
     if (has_answer) counters.solution_time_ns.add(1'000'000'000);
-    return monitor_.stands_still(true);
+    return monitor_.stands_still();
   }
   // Both streams come, and the Sequencer rejects all of it by this fault.
   bool look_rejecting(InputFault imu, InputFault epochs) {
     receive(200, 1);
     reject(Channel::kImu, imu, 200);
     reject(Channel::kGnssEpoch, epochs, 1);
-    return monitor_.stands_still(true);
+    return monitor_.stands_still();
   }
   // Both streams come, and one is used.
   bool look_rejecting_epochs(InputFault fault) {
@@ -52,11 +53,10 @@ class Looks {
     engine_.counters().refused[index_of(Channel::kImu)].add(200);
     engine_.counters().refused[index_of(Channel::kGnssEpoch)].add(1);
     engine_.counters().rejected[static_cast<std::size_t>(InputFault::kUndecodable)].add(201);
-    return monitor_.stands_still(true);
+    return monitor_.stands_still();
   }
   EngineCounters& counters() { return engine_.counters(); }
-  bool look() { return monitor_.stands_still(true); }
-  bool look_without_imu() { return monitor_.stands_still(false); }
+  bool look() { return monitor_.stands_still(); }
 
  private:
   void receive(std::int64_t imu, std::int64_t epochs) {
@@ -85,6 +85,15 @@ TEST_CASE("an answer that stands still for a minute while inputs come is found, 
   CHECK_FALSE(looks.look(true, true));  // it goes on
 }
 
+TEST_CASE("an answer that is asked for more rarely than once a minute is waited for") {
+  NavigatorConfig config;
+  config.solution_rate_hz = 0.01;
+  Looks looks(config);
+  looks.look(true, true);
+  for (int second = 1; second < 250; ++second) CHECK_FALSE(looks.look(true, false));
+  CHECK(looks.look(true, false));
+}
+
 TEST_CASE("an answer that ends because all inputs are rejected for their time is found") {
   for (const InputFault imu : {InputFault::kTimeBackwards, InputFault::kTooFarAhead}) {
     for (const InputFault epochs : {InputFault::kTimeBackwards, InputFault::kTooFarAhead}) {
@@ -99,13 +108,15 @@ TEST_CASE("an answer that ends because all inputs are rejected for their time is
 
 // With an IMU, empty epochs would be issued in their place.
 TEST_CASE("without an IMU, epochs that are all too late are found as those of a wrong time are") {
-  Looks looks;
+  NavigatorConfig config;
+  config.motion = MotionModel::kConstantVelocity;
+  Looks looks(config);
   looks.look(true, true);
   bool found = false;
   for (int second = 1; second <= 60; ++second) {
     CHECK_FALSE(found);
     looks.counters().late_epochs.add(1);
-    found = looks.look_without_imu();
+    found = looks.look();
   }
   CHECK(found);
 }

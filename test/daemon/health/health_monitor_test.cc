@@ -88,7 +88,8 @@ const auto all_but_imu = [](Channel channel) { return channel != Channel::kImu; 
 
 TEST_CASE("HEALTH without any input says what is missing") {
   Watched with_imu(MotionModel::kInertial);
-  const std::string nothing = "FAULT: no solution yet (no GNSS has come)";
+  const std::string nothing =
+      "FAULT: no solution yet (no GNSS has come: look at its sender and lcm.url)";
   CHECK(with_imu.at(1.0) == nothing + "; " + kNoImu);
   CHECK(with_imu.at(100.0) == nothing + "; " + kNoImu + "; " + kNoGnss);
   Watched gnss_only(MotionModel::kConstantVelocity);

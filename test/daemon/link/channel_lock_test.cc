@@ -31,6 +31,10 @@ TEST_CASE("channels are locked by address and prefix for as long as the lock liv
   const std::string said = refusal(config);
   CHECK(said.find("another leonavd (process " + std::to_string(getpid()) + ")") == 0);
   CHECK(said.find("lcm.prefix") != std::string::npos);
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    first->let_ask();
+    CHECK(refusal(config) == said);
+  }
   LcmConfig other = config;
   other.url += "&recv_buf_size=1000000";  // the same messages
   CHECK_FALSE(refusal(other).empty());

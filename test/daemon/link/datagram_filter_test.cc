@@ -15,9 +15,15 @@ using namespace leonav;
 
 namespace {
 
-constexpr std::uint32_t kMost = 30000;
-const std::vector<std::string> kChannels = {"LEONAV_IMU", "LEONAV_GNSS_EPOCH", "LEONAV_EPHEMERIS",
-                                            "LEONAV_COMMAND"};
+constexpr std::uint32_t kMost = 30000, kMostOfCommand = 500;
+const std::vector<std::string> kChannels = {"LEONAV_IMU", "LEONAV_GNSS_EPOCH", "LEONAV_EPHEMERIS"};
+
+std::vector<ReceivedChannel> received(const std::vector<std::string>& names) {
+  std::vector<ReceivedChannel> channels;
+  for (const std::string& name : names) channels.push_back({name, kMost});
+  channels.push_back({"LEONAV_COMMAND", kMostOfCommand});
+  return channels;
+}
 
 std::string big_endian(std::uint32_t number, int bytes) {
   std::string text;
@@ -40,7 +46,9 @@ std::string fragment(std::uint32_t number, std::uint32_t size, const std::string
 class FilteredSocket {
  public:
   explicit FilteredSocket(const std::vector<std::string>& channels = kChannels)
-      : program_(datagram_filter(kMost, channels)) {
+      : FilteredSocket(received(channels)) {}
+  explicit FilteredSocket(const std::vector<ReceivedChannel>& channels)
+      : program_(datagram_filter(channels)) {
     REQUIRE(socketpair(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0, sockets_.data()) == 0);
     const sock_fprog filter{static_cast<unsigned short>(program_.size()), program_.data()};
     REQUIRE(setsockopt(sockets_[1], SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0);
@@ -106,6 +114,16 @@ TEST_CASE("of messages in fragments the first one has to be of an input, and all
   }
 }
 
+TEST_CASE("a channel of short messages has a limit of its own") {
+  const FilteredSocket socket;
+  const std::string channel = "LEONAV_COMMAND";
+  const std::size_t most = kMostOfCommand - channel.size() - 1;
+  CHECK(socket.passes(message(channel, std::string(most, 'x'))));
+  CHECK_FALSE(socket.passes(message(channel, std::string(most + 1, 'x'))));
+  CHECK(socket.passes(fragment(0, kMostOfCommand, zero_ended(channel) + "data")));
+  CHECK_FALSE(socket.passes(fragment(0, kMostOfCommand + 1, zero_ended(channel) + "data")));
+}
+
 TEST_CASE("datagrams that are cut off or not of LCM do not pass") {
   const FilteredSocket socket;
   for (const std::string& whole :
@@ -123,14 +141,14 @@ TEST_CASE("datagrams that are cut off or not of LCM do not pass") {
 
 TEST_CASE("one channel, the longest names, and one that another begins with") {
   const std::string longest(63, 'n');
-  const FilteredSocket socket({longest, "short", "shorter"});
+  const FilteredSocket socket(std::vector<std::string>{longest, "short", "shorter"});
   CHECK(socket.passes(message(longest)));
   CHECK(socket.passes(message("short")));
   CHECK(socket.passes(message("shorter")));
   CHECK_FALSE(socket.passes(message("shorte")));
   CHECK_FALSE(socket.passes(message("shorter ")));
   CHECK_FALSE(socket.passes(message(longest.substr(1))));
-  const FilteredSocket alone({"LEONAV_IMU"});
+  const FilteredSocket alone(std::vector<ReceivedChannel>{{"LEONAV_IMU", kMost}});
   CHECK(alone.passes(message("LEONAV_IMU")));
   CHECK_FALSE(alone.passes(message("LEONAV_IM")));
   CHECK_FALSE(alone.passes(message("LEONAV_IMU2")));

@@ -47,7 +47,7 @@ TEST_CASE("a smoother that cannot keep its deadline on this machine is refused")
                      "--lcm-url memq:// --set estimator=smoother --set smoother.solver=ceres --set "
                      "smoother.window=60 "
                      "--set realtime.deadline_smoother_ms=1 --set realtime.deadline_ekf_ms=1");
-  CHECK(run.exit_code == 3);
+  CHECK(run.exit_code == 1);  // a service manager tries again: the machine may be quicker then
   CHECK(run.err.find("smoother.window: one iteration over 60 keyframes") != std::string::npos);
   CHECK(run.err.find("shorten the window, lengthen the deadline") != std::string::npos);
 }

@@ -159,9 +159,15 @@ TEST_CASE("a thread that hangs is named; one without work is not") {
     while (hold_gnss) test::wait_a_moment();
   };
   HeldTarget target;
-  Engine engine(test::drive_config(), &target, hooks);
+  const DaemonConfig config = test::drive_config();
+  Engine engine(config, &target, hooks);
   engine.start();
-  ThreadMonitor watch(&engine);
+  ThreadMonitor watch(&engine, config.navigator);
+  NavigatorConfig without_imu = config.navigator;
+  without_imu.motion = MotionModel::kConstantVelocity;
+  without_imu.estimator = Estimator::kSmoother;
+  without_imu.realtime.epoch_interval_s = 3.0;  // so long a solve may take
+  ThreadMonitor patient(&engine, without_imu);
   const auto look = [&] {
     engine.counters().io_rounds.add(1);
     return watch.stalled_threads();
@@ -170,7 +176,7 @@ TEST_CASE("a thread that hangs is named; one without work is not") {
   CHECK(watch.stalled_threads() == "io");             // did not come round
 
   int epochs = 0;
-  std::vector<std::string> said;
+  std::vector<std::string> said, said_patiently;
   test::feed_messages(test::synthetic_drive(test::noisy_drive(10.0)),
                       [&](Channel channel, ByteSpan bytes) {
                         const bool epoch = channel == Channel::kGnssEpoch && ++epochs == 3;
@@ -185,12 +191,15 @@ TEST_CASE("a thread that hangs is named; one without work is not") {
                         said.push_back(look());  // the work is new
                         said.push_back(look());
                         said.push_back(watch.stalled_threads());  // `io` may well wait behind it
+                        for (int k = 0; k < 5; ++k)
+                          said_patiently.push_back(patient.stalled_threads());
                         hold_gnss = false;
                         wait_until_idle(engine);
                         said.push_back(look());
                         said.push_back(look());
                       });
   CHECK(said == std::vector<std::string>{"", "gnss", "gnss", "", ""});
+  CHECK(said_patiently == std::vector<std::string>{"", "", "", "gnss", "gnss"});
 
   wait_until_idle(engine);
   target.hold = true;

@@ -1,6 +1,13 @@
 // The longest messages that core/base/capacity.h allows fit into the buffers and come back whole.
+#include <leonav/command_t.hpp>
 #include <leonav/constraints_t.hpp>
+#include <leonav/ephemeris_t.hpp>
 #include <leonav/epoch_t.hpp>
+#include <leonav/imu_t.hpp>
+#include <leonav/ionosphere_t.hpp>
+#include <leonav/leo_ephemeris_t.hpp>
+#include <leonav/odometer_t.hpp>
+#include <leonav/signed_command_t.hpp>
 #include <memory>
 #include <vector>
 
@@ -94,4 +101,13 @@ TEST_CASE("corrected states and biases at full capacity come back") {
   CHECK(states_back.size() == kMaxCorrectedStates);
   CHECK(decoder.decode(encoder.encode(biases, 1), &biases_back).fault == InputFault::kNone);
   CHECK(biases_back.size() == kMaxBiases);
+}
+
+TEST_CASE("messages without a list are short") {
+  const std::vector<int> sizes = {
+      imu_t().getEncodedSize(),           ephemeris_t().getEncodedSize(),
+      leo_ephemeris_t().getEncodedSize(), ionosphere_t().getEncodedSize(),
+      odometer_t().getEncodedSize(),      command_t().getEncodedSize(),
+      signed_command_t().getEncodedSize()};
+  for (const int bytes : sizes) CHECK(bytes <= static_cast<int>(wire::kMaxBytesWithoutList));
 }

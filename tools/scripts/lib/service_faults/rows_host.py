@@ -315,6 +315,27 @@ def not_grown(run, outputs, result):
     run.notes.append(f"resident {first['VmRSS'] / 1024:.1f} MiB before it, {grown} kB more at most")
 
 
+# Of each a burst every tenth of a second, of which nothing can be read: 120 MB a second.
+FLOODED, FLOOD_BYTES, FLOOD_BURST, FLOODS = ("GNSS_EPOCH", "ORBIT_CLOCK", "CORRECTED_STATES", "BIASES"), 60_000, 50, 200
+MOST_FLOOD_KB = 64 * 1024  # 4 MB of each channel, and what liblcm's buffer has too much while it grows
+
+
+def flood(run):
+    for channel in FLOODED:
+        for _ in range(FLOOD_BURST):
+            run.sender.send(PREFIX + channel, FLOOD)
+
+
+FLOOD = os.urandom(FLOOD_BYTES)
+
+
+def flood_is_bounded(run, outputs, result):
+    (first, _), (last, _) = run.memory
+    grown = last["VmHWM"] - first["VmRSS"]
+    result.at_most("grown", grown, MOST_FLOOD_KB, "kB")
+    run.notes.append(f"resident {first['VmRSS'] / 1024:.1f} MiB before it, {grown} kB more at most")
+
+
 def reload(run):
     run.daemon.process.send_signal(signal.SIGHUP)
 
@@ -452,6 +473,9 @@ ROWS = [
         change=lambda row, messages: stream.new_names(row.begin_s, row.end_s, NAMES)(messages),
         actions=((59.5, measure_memory), *((60 + k * 40 / (FRAGMENTS // 2), send_fragments) for k in range(FRAGMENTS // 2)), (101, measure_memory)),
         before=watch_network, after=count_arrived, judge=names_cost_nothing, expected=Expected()),
+    Row("flood", f"{len(FLOODED) * FLOOD_BURST * 10:,} messages of 60 kB a second that nobody can read, for 20 s", end_s=80, after_s=30,
+        actions=((59.5, measure_memory), *((60 + k / 10, flood) for k in range(FLOODS)), (81, measure_memory)), judge=flood_is_bounded,
+        expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=20)),
     Row("reload", "SIGHUP", after_s=20, actions=((60, reload),), judge=reload_is_told, expected=Expected()),
     Row("log-stalled", "nobody reads the log for 30 s, and it gets more lines than the daemon keeps", end_s=90, after_s=15, before=open_log_pipe,
         actions=((60, stall_log), *((60 + k * 28 / RELOADS, reload) for k in range(RELOADS)), (90, read_log_again), (95, reload)),
