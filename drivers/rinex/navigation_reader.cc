@@ -38,9 +38,9 @@ FileLayout read_first_line(LineReader* lines) {
   NavigationLayout& layout = result.record;
   layout.is_version_2 = *version < 3.0;
   const std::string_view type = columns(line, 20, 1);
-  // RINEX 2 has a file type for each system: N GPS, G GLONASS, H SBAS, E Galileo.
-  const bool known =
-      type == "N" || (layout.is_version_2 && (type == "G" || type == "H" || type == "E"));
+  // RINEX 2 has a file type for each system: N GPS, G GLONASS, H SBAS, E Galileo, J QZSS.
+  const bool known = type == "N" || (layout.is_version_2 &&
+                                     (type == "G" || type == "H" || type == "E" || type == "J"));
   if (!known) {
     fail("this RINEX file is of type '" + std::string(trim(columns(line, 20, 20))) +
          "', not a navigation file; list it under its own key");
@@ -48,6 +48,7 @@ FileLayout read_first_line(LineReader* lines) {
   if (type == "G") layout.system = 'R';
   if (type == "H") layout.system = 'S';
   if (type == "E") layout.system = 'E';
+  if (type == "J") layout.system = 'J';
   return result;
 }
 

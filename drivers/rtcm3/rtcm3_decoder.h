@@ -65,6 +65,9 @@ struct Rtcm3Counters {
 // Returns in a few words what a message is that Rtcm3Counters::unused counts.
 std::string_view unused_message_text(std::uint16_t message_number);
 
+// Returns whether such messages hold the ephemerides of a system that is not used.
+bool is_ephemeris_of_unused_system(std::uint16_t message_number);
+
 // Settings of the decoder.
 struct Rtcm3Options {
   // An instant less than three and a half days from the beginning of the stream, whose messages

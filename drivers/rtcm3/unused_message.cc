@@ -38,4 +38,8 @@ std::string_view unused_message_text(std::uint16_t message_number) {
   return "a message that is not read";
 }
 
+bool is_ephemeris_of_unused_system(std::uint16_t message_number) {
+  return unused_message_text(message_number).ends_with("ephemeris (system not used)");
+}
+
 }  // namespace leonav

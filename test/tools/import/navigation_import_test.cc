@@ -84,6 +84,19 @@ TEST_CASE("a navigation file of systems that are not used costs a warning alone"
   CHECK_THAT(all_warnings(import_with(alone)), Contains("no satellite has a position"));
 }
 
+TEST_CASE("a RINEX 2 navigation file of QZSS costs a warning alone", "[import]") {
+  const TemporaryFile yaml("set.yaml", "observations: a.obs\nnavigation: [q.nav, gps.nav]\n");
+  std::ofstream(yaml.beside("q.nav"))
+      << "     2.12           J: QZSS NAV DATA                        RINEX VERSION / TYPE\n"
+      << kEnd << " 1 24  5  6  8  0  0.0 1.0D-04 1.0D-12 0.0D+00\n    1\n    2\n";
+  std::ofstream(yaml.beside("gps.nav")) << kVersion3 << kEnd << kGps;
+  const ImportReport report = import_with(yaml);
+  CHECK(report.ephemerides == 1);
+  CHECK_THAT(all_warnings(report),
+             Contains("q.nav holds no usable ephemeris (1 records left out)"));
+  CHECK_THAT(to_string(report), Contains("QZSS satellite (system not used)"));
+}
+
 TEST_CASE("a navigation file of damaged records stops the import", "[import]") {
   const TemporaryFile yaml("set.yaml", "observations: a.obs\nnavigation: gps.nav\n");
   std::ofstream(yaml.beside("gps.nav")) << kVersion3 << kEnd << kForeign << kGps.substr(0, 200);

@@ -1,7 +1,9 @@
 // RTCM 3 recordings in an import: observations, navigation, and the date that they need.
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
+#include "drivers/binary/crc24q.h"
 #include "drivers/text/parse.h"
 #include "import_outcome.h"
 #include "support/catch.h"
@@ -40,7 +42,56 @@ struct Recording {
 
 using Catch::Contains;
 
+// A frame around a message of `size` zero octets behind its number.
+std::string frame(unsigned number, std::size_t size) {
+  std::vector<std::uint8_t> bytes(5 + size);
+  bytes[0] = 0xD3;
+  bytes[2] = static_cast<std::uint8_t>(2 + size);
+  bytes[3] = static_cast<std::uint8_t>(number >> 4U);
+  bytes[4] = static_cast<std::uint8_t>(number << 4U);
+  const std::uint32_t crc = crc24q(BitReader(bytes), static_cast<int>(8 * bytes.size()));
+  for (const int shift : {16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(crc >> shift));
+  return {bytes.begin(), bytes.end()};
+}
+
+// Imports one epoch with these bytes as navigation.
+ImportReport import_with_navigation(const std::string& bytes) {
+  const test::TemporaryFile yaml("set.yaml",
+                                 "date: 2024-05-06\nobservations: a.obs\nnavigation: a.rtcm3\n");
+  std::ofstream(yaml.beside("a.rtcm3"), std::ios::binary) << bytes;
+  std::ofstream(yaml.beside("a.obs"))
+      << "     3.05           OBSERVATION DATA    M                   RINEX VERSION / TYPE\n"
+         "G    1 C1C                                                  SYS / # / OBS TYPES\n"
+         "                                                            END OF HEADER\n"
+         "> 2024 05 06 02 00  0.0000000  0  1\nG01  20000000.000\n";
+  return import_dataset(load_dataset(yaml.path()), {}, yaml.beside("out.lcmlog"), nullptr);
+}
+
 }  // namespace
+
+TEST_CASE("RTCM 3 ephemerides of systems that are not used cost a warning alone", "[import]") {
+  const ImportReport report =
+      import_with_navigation(frame(1020, 43) + frame(1029, 9) + frame(1044, 59) + frame(1041, 59));
+  CHECK(report.epochs == 1);
+  CHECK(report.ephemerides == 0);
+  std::string warnings;
+  for (const std::string& warning : report.warnings) warnings += warning + "\n";
+  CHECK_THAT(warnings,
+             Contains("a.rtcm3 holds no usable ephemeris; 1 x message 1020: GLONASS ephemeris") &&
+                 Contains("QZSS") && Contains("NavIC") && Contains("no satellite has a position"));
+}
+
+TEST_CASE("RTCM 3 navigation without any ephemeris, or with a damaged one, stops the import",
+          "[import]") {
+  const std::string glonass = frame(1020, 43);
+  std::string damaged = frame(1019, 59);
+  damaged[20] ^= 1;
+  for (const std::string& bytes :
+       {frame(1029, 9), frame(1087, 40), glonass + frame(1019, 10), damaged + glonass}) {
+    CHECK_THROWS_WITH(import_with_navigation(bytes),
+                      Contains("a.rtcm3") && Contains("no usable ephemeris"));
+  }
+}
 
 TEST_CASE("an RTCM 3 recording gives epochs, ephemerides and its antenna", "[import]") {
   if (!test::have_shared_data(kManyTypes)) return;

@@ -1,5 +1,6 @@
 #include "tools/import/internal/rtcm3_file.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "drivers/text/parse.h"
@@ -22,6 +23,19 @@ void report_corrections(const std::string& path, const Rtcm3Counters& counters,
                         ImportReport* report) {
   report->skip(path, "SSR message (used where the file is listed under corrections)",
                static_cast<long>(counters.ssr.messages));
+}
+
+// Whether the ephemerides of a file are all of systems that are not used. Where one of another
+// system was refused, or a frame is damaged, that is not known.
+bool has_only_unused_ephemerides(const Rtcm3Counters& counters) {
+  const EphemerisRefusals& refused = counters.ephemerides;
+  const std::uint64_t lost = counters.framer.bad_checksums + refused.bad_length +
+                             refused.bad_satellite + refused.bad_time + refused.bad_week +
+                             refused.bad_subframes + refused.not_sane;
+  return lost == 0 && std::any_of(counters.unused.begin(), counters.unused.end(),
+                                  [](const auto& number_and_count) {
+                                    return is_ephemeris_of_unused_system(number_and_count.first);
+                                  });
 }
 
 }  // namespace
@@ -126,7 +140,8 @@ std::vector<Ephemeris> read_rtcm3_ephemerides(const std::string& path, GpsTime d
     for (const ImportReport::Skip& skip : report->skipped) {
       if (skip.where == path) why += "; " + std::to_string(skip.count) + " x " + skip.reason;
     }
-    throw FileError(path, 0, why);
+    if (!has_only_unused_ephemerides(reader.counters())) throw FileError(path, 0, why);
+    report->warnings.push_back(path + " " + why);
   }
   return ephemerides;
 }
