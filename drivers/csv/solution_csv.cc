@@ -65,6 +65,8 @@ std::string_view source_name(const SolutionRow& row) {
   return source_name(row.source, row.pva.roll.has_value());
 }
 
+bool is_prediction(const SolutionRow& row) { return source_name(row) == kPrediction; }
+
 SolutionCsvWriter::SolutionCsvWriter(const std::string& path) : writer_(path, kSolutionCsvHeader) {}
 
 void SolutionCsvWriter::write(const SolutionRow& row) {

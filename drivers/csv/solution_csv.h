@@ -36,6 +36,10 @@ struct SolutionRow {
 SolutionRow to_solution_row(const Solution& solution, std::optional<int> satellites,
                             std::optional<double> pdop);
 
+// Returns whether a row carries the course of before on without GNSS and without an IMU, which
+// shows by INS as the source of what has no attitude. In lines and statistics it is part of a gap.
+bool is_prediction(const SolutionRow& row);
+
 // Returns the name of a source in tables and exports: that of to_string(), but "prediction" and not
 // "ins" where there is no attitude: without GNSS no IMU carries the answer on either.
 std::string_view source_name(Source source, bool has_attitude);

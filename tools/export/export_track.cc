@@ -166,7 +166,8 @@ ExportTrack load_track(const std::string& path, const TrackChoice& choice) {
 std::vector<TrackPart> parts_of(std::span<const SolutionRow> rows, double gap_s) {
   std::vector<TrackPart> parts;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool joined = i > 0 && seconds_between(rows[i].pva.time, rows[i - 1].pva.time) <= gap_s &&
+    const bool joined = i > 0 && !is_prediction(rows[i]) && !is_prediction(rows[i - 1]) &&
+                        seconds_between(rows[i].pva.time, rows[i - 1].pva.time) <= gap_s &&
                         std::abs(rows[i].pva.position.longitude -
                                  rows[i - 1].pva.position.longitude) <= std::numbers::pi;
     if (!joined) parts.push_back({i, i});

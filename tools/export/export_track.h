@@ -29,7 +29,8 @@ struct ExportTrack {
 ExportTrack load_track(const std::string& path, const TrackChoice& choice);
 
 // Returns the positions [first, last) of the parts between which the track has no position for more
-// than `gap_s`, or crosses the 180th meridian; a line must join the points of one part only.
+// than `gap_s`, or crosses the 180th meridian; a line must join the points of one part only. A
+// prediction (is_prediction) ends a part and is one by itself, so that no line is drawn of it.
 struct TrackPart {
   std::size_t first = 0, last = 0;
 };

@@ -1,4 +1,5 @@
 // leonav-export writes solutions as files that other programs read: GPX, KML, GeoJSON, MCAP.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -85,6 +86,19 @@ void refuse_same_file(const std::string& run, const std::string& out) {
   }
 }
 
+std::string summary_of(const MapTrack& map) {
+  const auto predictions = static_cast<std::size_t>(std::count_if(
+      map.rows.begin(), map.rows.end(), [](const auto& row) { return is_prediction(row); }));
+  const std::size_t parts = map.parts.size() - predictions;
+  std::string text = std::to_string(map.rows.size()) + " points in " + std::to_string(parts) +
+                     (parts == 1 ? " part" : " parts");
+  if (predictions > 0) {
+    text += ", and " + std::to_string(predictions) +
+            " of them are predictions without GNSS and IMU, which no line joins";
+  }
+  return text;
+}
+
 int body(int argc, char** argv) {
   Arguments arguments = declare();
   if (!arguments.parse(argc, argv)) return 0;
@@ -118,8 +132,7 @@ int body(int argc, char** argv) {
   if (format == "kml") write_kml(map, &file);
   if (format == "geojson") write_geojson(map, &file);
   file.commit();
-  std::cout << out << ": " << track.rows.size() << " points in " << map.parts.size()
-            << (map.parts.size() == 1 ? " part\n" : " parts\n");
+  std::cout << out << ": " << summary_of(map) << "\n";
   return 0;
 }
 

@@ -315,6 +315,26 @@ class Maps(Test):
         self.assertLess(int(slow.split(": ")[1].split()[0]), 8)
 
 
+    def test_a_prediction_ends_the_line_and_is_in_none(self):
+        rows, _ = drive(gap_after=99)
+        for index in (6, 7, 8):
+            rows[index] = rows[index]._replace(source="prediction", roll_deg="", pitch_deg="", yaw_deg="")
+        csv = write_csv(rows, "lost.csv")
+        files = {name: WORK / f"lost.{name}" for name in ("gpx", "kml", "geojson")}
+        for out in files.values():
+            self.assertIn("20 points in 2 parts, and 3 of them are predictions", export(csv, "--out", out, "--gap", "60").stdout)
+        features = json.loads(files["geojson"].read_text())["features"]
+        places = [one["geometry"]["coordinates"] for one in features if one["geometry"]["type"] == "Point"]
+        lines = [one["geometry"]["coordinates"] for one in features if one["geometry"]["type"] == "LineString"]
+        self.assertEqual(lines, [places[:6], places[9:]])
+        self.assertEqual([one["properties"]["source"] for one in features if one["geometry"]["type"] == "Point"][5:10],
+                         ["ekf", "prediction", "prediction", "prediction", "ins"])
+        segments = ElementTree.parse(files["gpx"]).getroot().findall(f"{GPX}trk/{GPX}trkseg")
+        self.assertEqual([len(one.findall(f"{GPX}trkpt")) for one in segments], [6, 1, 1, 1, 11])
+        lines = ElementTree.parse(files["kml"]).getroot().iter(f"{KML}LineString")
+        self.assertEqual([len(one.find(f"{KML}coordinates").text.split()) for one in lines], [6, 11])
+
+
 class Errors(Test):
     def test_nothing_to_export_is_an_error_and_leaves_no_file(self):
         header = ",".join(COLUMNS) + "\n"
