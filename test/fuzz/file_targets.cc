@@ -1,5 +1,8 @@
 // The readers of files, each to the end of the file.
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "core/gnss/orbits/satellite_state.h"
@@ -16,6 +19,7 @@
 #include "drivers/rtklib_pos/pos_reader.h"
 #include "drivers/sp3/sp3_reader.h"
 #include "drivers/text/parse.h"
+#include "drivers/transport/recording.h"
 #include "test/fuzz/memory_file.h"
 #include "test/fuzz/target_groups.h"
 #include "tools/import/dataset.h"
@@ -31,6 +35,9 @@ void run_reader(FuzzBytes bytes, Read read) {
   } catch (const FileError&) {
   }
 }
+
+// "leonav recording 1" and the end of the line.
+constexpr std::size_t kRecordingLine = 19;
 
 // A reader that has a choice: the length of an input makes it.
 template <typename Read>
@@ -127,6 +134,51 @@ void read_positions(const std::string& path) {
   expect(!read_pos(path).rows.empty(), "no solution");
 }
 
+// Compares what a reader gives with the bytes of its file, one after the other.
+class FollowedBytes {
+ public:
+  explicit FollowedBytes(FuzzBytes file) : rest_(file) {}
+
+  void expect_next(FuzzBytes bytes) {
+    expect(bytes.size() <= rest_.size(), "more bytes than the file has");
+    expect(std::equal(bytes.begin(), bytes.end(), rest_.begin()), "other bytes than the file's");
+    rest_ = rest_.subspan(bytes.size());
+  }
+  void expect_number(std::uint64_t value, std::size_t bytes) {
+    std::array<std::uint8_t, 8> text{};
+    for (std::size_t i = 0; i < bytes; ++i) text[i] = static_cast<std::uint8_t>(value >> (8 * i));
+    expect_next(FuzzBytes(text).first(bytes));
+  }
+  bool empty() const { return rest_.empty(); }
+
+ private:
+  FuzzBytes rest_;
+};
+
+// A recording is its first line and its blocks up to the damage or the end; of any other file the
+// pieces are the file.
+void read_recording(const std::string& path, FuzzBytes bytes) {
+  const std::optional<std::int64_t> first = first_arrival_ns(path);
+  BlockReader reader(path);
+  FollowedBytes file(bytes);
+  if (reader.is_recording()) file.expect_next(bytes.first(kRecordingLine));
+  BlockReader::Block block;
+  for (bool is_first = true; reader.next(&block); is_first = false) {
+    if (!reader.is_recording()) {
+      expect(block.arrival_ns == 0 && !block.bytes.empty(),
+             "a piece with a time, or without bytes");
+      file.expect_next(block.bytes);
+      continue;
+    }
+    expect(block.arrival_ns > 0, "an arrival before 1970");
+    expect(!is_first || first == block.arrival_ns, "another first arrival");
+    file.expect_number(static_cast<std::uint64_t>(block.arrival_ns), 8);
+    file.expect_number(block.bytes.size(), 4);
+    file.expect_next(block.bytes);
+  }
+  expect(reader.is_recording() || (file.empty() && !first), "bytes of the file are left out");
+}
+
 }  // namespace
 
 std::vector<FuzzTarget> file_targets() {
@@ -146,6 +198,8 @@ std::vector<FuzzTarget> file_targets() {
       {"rtklib_pos", [](FuzzBytes b) { run_reader(b, read_positions); }},
       {"dataset",
        [](FuzzBytes b) { run_reader(b, [](const std::string& p) { load_dataset(p); }); }},
+      {"recording",
+       [](FuzzBytes b) { run_reader(b, [b](const std::string& p) { read_recording(p, b); }); }},
   };
 }
 

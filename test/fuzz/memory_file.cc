@@ -1,6 +1,7 @@
 #include "test/fuzz/memory_file.h"
 
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +18,7 @@ namespace {
 
 MemoryFile::MemoryFile() : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)) {
   if (descriptor_ < 0) fail("memfd_create");
+  if (fchmod(descriptor_, S_IRUSR | S_IWUSR) != 0) fail("fchmod");
   path_ = "/proc/self/fd/" + std::to_string(descriptor_);
 }
 

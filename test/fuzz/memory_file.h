@@ -1,4 +1,5 @@
-// A MemoryFile is a file in memory that readers open by a path.
+// A MemoryFile is a file in memory that readers open by a path. Only its owner may read it, as a
+// secret must be kept.
 #pragma once
 #include <string>
 
