@@ -200,7 +200,7 @@ void read_robust(ConfigReader& group, RobustConfig* config) {
   group.number("k0", {0.1, 100.0}, &config->k0);
   group.number("k1", {0.1, 1000.0}, &config->k1);
   group.integer("max_iterations", 1, 100, &config->max_iterations);
-  if (config->k1 <= config->k0) group.fail("k1", "must be greater than k0");
+  if (config->k1 <= config->k0) group.report("k1", "must be greater than k0");
 }
 
 void read_integrity(ConfigReader& group, IntegrityConfig* config) {
@@ -245,14 +245,14 @@ void read_lcm(ConfigReader& group, LcmConfig* config) {
   group.text("prefix", &config->prefix);
   group.integer("receive_queue", 1, 1000000, &config->receive_queue);
   // liblcm allows 63 characters in a channel's name; the longest of ours has 16.
-  if (config->prefix.size() > 47) group.fail("prefix", "longer than 47 characters");
+  if (config->prefix.size() > 47) group.report("prefix", "longer than 47 characters");
   if (config->url.starts_with("tcpq:")) {
-    group.fail("url", "tcpq:// ends the process when its server is away; use udpm:// or memq://");
+    group.report("url", "tcpq:// ends the process when its server is away; use udpm:// or memq://");
   }
-  if (config->url.empty()) group.fail("url", "must not be empty");
+  if (config->url.empty()) group.report("url", "must not be empty");
   if (const auto to = udpm_address(config->url); to && !is_multicast(to->group)) {
-    group.fail("url",
-               "'" + to->group + "' is not a multicast address (224.0.0.0 to 239.255.255.255)");
+    group.report("url",
+                 "'" + to->group + "' is not a multicast address (224.0.0.0 to 239.255.255.255)");
   }
 }
 
@@ -275,9 +275,9 @@ void read_journal(ConfigReader& group, JournalConfig* config) {
   group.number("kept_mb", {0.0, 1e9}, &config->kept_mb);
   // A limit must leave room for the piece that is written and one before it.
   if (config->total_mb > 0.0 && config->total_mb < 2.0 * config->piece_mb)
-    group.fail("total_mb", "must be at least twice piece_mb, or 0");
+    group.report("total_mb", "must be at least twice piece_mb, or 0");
   if (config->kept_mb > 0.0 && config->kept_mb < 2.0 * config->piece_mb)
-    group.fail("kept_mb", "must be at least twice piece_mb, or 0");
+    group.report("kept_mb", "must be at least twice piece_mb, or 0");
 }
 
 void read_log(ConfigReader& group, LogConfig* config) {

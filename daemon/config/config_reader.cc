@@ -364,6 +364,10 @@ std::string ConfigReader::where(const char* key) const {
   return source_->name + ": " + path_of(key);
 }
 
+void ConfigReader::report(const char* key, const std::string& message) const {
+  source_->errors.push_back(where(key) + ": " + message);
+}
+
 void ConfigReader::fail(const char* key, const std::string& message) const {
   throw ConfigError(where(key) + ": " + message);
 }

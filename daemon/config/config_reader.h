@@ -100,7 +100,13 @@ class ConfigReader {
   // Where `key` stands, for errors that show later: "FILE:LINE: group.key", or "--set group.key".
   std::string where(const char* key) const;
 
-  // Throws ConfigError for `key`, at its line; the rest of its group is then not read.
+  // Notes that `key`, at its line, cannot be as it is. Reading goes on, so that the rest of the
+  // group is judged too.
+  void report(const char* key, const std::string& message) const;
+  // Notes the ConfigError that `read` throws, so that the keys behind it are read as well.
+  void attempt(const std::function<void()>& read);
+  // Throws ConfigError for `key`, at its line: for a key that decides which others there are. The
+  // rest of its group is then not read, and none of its keys is called unknown.
   [[noreturn]] void fail(const char* key, const std::string& message) const;
 
   // Notes an error where the group has a key that was not asked for, or one twice.
@@ -108,8 +114,6 @@ class ConfigReader {
 
  private:
   using Found = std::optional<ConfigNode>;
-  // Notes the ConfigError that `read` throws, so that the keys behind it are read as well.
-  void attempt(const std::function<void()>& read);
   void check_key(const ConfigNode& at, std::vector<std::string>* seen) const;
   // Returns the index in `names` of the key's value; throws, listing them, if it is none.
   std::optional<std::size_t> choice_index(const char* key, const std::vector<std::string>& names,

@@ -18,17 +18,18 @@ void read_letters(ConfigReader& group, const char* key, char from, char to, List
       "list of at most " + std::to_string(letters->capacity()) + ", each " + from + " to " + to;
   if (!group.list(key, &texts, allowed)) return;
   if (texts.size() > letters->capacity()) {
-    group.fail(key, "at most " + std::to_string(letters->capacity()) + " entries");
+    group.report(key, "at most " + std::to_string(letters->capacity()) + " entries");
+    return;
   }
   letters->clear();
   for (const std::string& text : texts) {
     if (text.size() != 1 || text[0] < from || text[0] > to) {
-      group.fail(key, "'" + text + "' is not one character from " + from + " to " + to);
+      group.report(key, "'" + text + "' is not one character from " + from + " to " + to);
+    } else if (std::find(letters->begin(), letters->end(), text[0]) != letters->end()) {
+      group.report(key, "'" + text + "' is given twice");
+    } else {
+      letters->push_back(text[0]);
     }
-    if (std::find(letters->begin(), letters->end(), text[0]) != letters->end()) {
-      group.fail(key, "'" + text + "' is given twice");
-    }
-    letters->push_back(text[0]);
   }
 }
 
@@ -36,9 +37,10 @@ void read_system(ConfigReader& group, SystemConfig* config) {
   std::string first_band(1, config->signals.first_band);
   group.text("first_band", &first_band, "1 to 9");
   if (first_band.size() != 1 || first_band[0] < '1' || first_band[0] > '9') {
-    group.fail("first_band", "must be one RINEX band digit, 1 to 9");
+    group.report("first_band", "must be one RINEX band digit, 1 to 9");
+  } else {
+    config->signals.first_band = first_band[0];
   }
-  config->signals.first_band = first_band[0];
   read_letters(group, "second_bands", '1', '9', &config->signals.second_bands);
   read_letters(group, "attributes", 'A', 'Z', &config->signals.attributes);
   group.integer("max_satellites", 0, 512, &config->max_satellites);
@@ -53,9 +55,9 @@ void check_bands(const ConfigReader& group, const BandPlan& bands,
                  const SignalPreference& signals) {
   const auto check = [&](const char* key, char band) {
     if (bands.frequency_hz(System::kLeo, band) > 0.0) return;
-    group.fail(key, std::string("names band ") + band +
-                        ", which has no carrier: give gnss.leo_bands_mhz." + band +
-                        " in MHz, or name a band that has one");
+    group.report(key, std::string("names band ") + band +
+                          ", which has no carrier: give gnss.leo_bands_mhz." + band +
+                          " in MHz, or name a band that has one");
   };
   check("first_band", signals.first_band);
   for (const char band : signals.second_bands) check("second_bands", band);
@@ -80,15 +82,16 @@ void read_systems(ConfigReader& group, GnssConfig* config) {
     if (config->systems[index_of(system)].enabled) names.emplace_back(to_string(system));
   }
   if (!group.list("systems", &names, "list of gps, galileo, beidou, leo")) return;
-  if (names.empty()) group.fail("systems", "name at least one of gps, galileo, beidou, leo");
+  if (names.empty()) group.report("systems", "name at least one of gps, galileo, beidou, leo");
   for (SystemConfig& system : config->systems) system.enabled = false;
   for (const std::string& name : names) {
     const auto system = system_from_string(name);
     if (!system) {
-      group.fail("systems", "'" + name + "' is not one of gps, galileo, beidou, leo");
+      group.report("systems", "'" + name + "' is not one of gps, galileo, beidou, leo");
+      continue;
     }
     SystemConfig& chosen = config->systems[index_of(*system)];
-    if (chosen.enabled) group.fail("systems", "'" + name + "' is given twice");
+    if (chosen.enabled) group.report("systems", "'" + name + "' is given twice");
     chosen.enabled = true;
   }
 }
@@ -112,8 +115,11 @@ void read_leo_bands(ConfigReader& group, const char* key, BandPlan* bands) {
       bands->set_leo(band, hz);
       for (char other = BandPlan::kFirstBand; hz > 0.0 && other < band; ++other) {
         if (bands->frequency_hz(System::kLeo, other) != hz) continue;
-        reader.fail(names[i].c_str(), std::string("is also the carrier of band ") + other +
-                                          "; give it to one band and ~ to the other");
+        // Appended, because gcc 12 reports a false error in a sum of these.
+        std::string why = "is also the carrier of band ";
+        why += other;
+        why += "; give it to one band and ~ to the other";
+        reader.report(names[i].c_str(), why);
       }
     }
   });

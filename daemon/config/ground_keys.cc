@@ -41,12 +41,9 @@ BlqRows rows_of(const ConfigReader& group, const std::vector<double>& values) {
   return rows;
 }
 
-void read_ocean_loading(ConfigReader& group, GnssConfig* config) {
-  std::string file, station;
-  std::vector<double> values;
-  group.text(kFile, &file);
-  group.text(kStation, &station);
-  group.numbers(kCoefficients, {-360.0, 360.0}, &values);
+// Throws ConfigError where the three keys do not give one set of coefficients.
+void take_ocean_loading(ConfigReader& group, const std::string& file, const std::string& station,
+                        const std::vector<double>& values, GnssConfig* config) {
   if (!values.empty()) {
     if (!file.empty()) {
       group.fail(kFile, std::string("is given beside ") + kCoefficients +
@@ -68,16 +65,25 @@ void read_ocean_loading(ConfigReader& group, GnssConfig* config) {
   }
 }
 
+void read_ocean_loading(ConfigReader& group, GnssConfig* config) {
+  std::string file, station;
+  std::vector<double> values;
+  group.text(kFile, &file);
+  group.text(kStation, &station);
+  group.numbers(kCoefficients, {-360.0, 360.0}, &values);
+  group.attempt([&] { take_ocean_loading(group, file, station, values, config); });
+}
+
 void read_polar_motion(ConfigReader& group, GnssConfig* config) {
   constexpr Bounds kFromCrust = {-1.0, 1.0};  // it has never been beyond 0.65
   std::optional<double> x, y;
   group.number("polar_motion_x_arcsec", kFromCrust, &x, kArcsecond);
   group.number("polar_motion_y_arcsec", kFromCrust, &y, kArcsecond);
   if (x.has_value() != y.has_value()) {
-    group.fail(x ? "polar_motion_x_arcsec" : "polar_motion_y_arcsec",
-               std::string("is given without ") + (x ? "y" : "x") + "; give both or neither");
+    group.report(x ? "polar_motion_x_arcsec" : "polar_motion_y_arcsec",
+                 std::string("is given without ") + (x ? "y" : "x") + "; give both or neither");
   }
-  if (x) config->polar_motion = PolarMotion{*x, *y};
+  if (x && y) config->polar_motion = PolarMotion{*x, *y};
 }
 
 }  // namespace

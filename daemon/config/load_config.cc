@@ -18,7 +18,7 @@ void check_prefix(const ConfigReader& group, const std::string& prefix) {
   for (const char c : prefix) {
     const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
                        c == '_' || c == '-';
-    if (!plain) group.fail("prefix", "only letters, digits, '_' and '-' may be in it");
+    if (!plain) return group.report("prefix", "only letters, digits, '_' and '-' may be in it");
   }
 }
 
@@ -58,32 +58,49 @@ DaemonConfig read_root(ConfigReader& root) {
   return config;
 }
 
-DaemonConfig load_layers(ConfigLayer file, const std::vector<std::string>& overrides) {
-  const std::string name = file.name;
-  std::vector<ConfigLayer> own = {std::move(file), override_layer(overrides)};
-  std::vector<ConfigLayer> layers = preset_layers(own);
+// Without the preset where there is none of its name, which is noted.
+std::vector<ConfigLayer> with_preset(const std::vector<ConfigLayer>& own, ConfigSource* source) {
+  std::vector<ConfigLayer> layers;
+  try {
+    layers = preset_layers(own);
+  } catch (const ConfigError& error) {
+    source->errors.emplace_back(error.what());
+  }
   layers.insert(layers.end(), own.begin(), own.end());
-  ConfigSource source{name};
+  return layers;
+}
+
+DaemonConfig load_layers(ConfigLayer file, const std::vector<std::string>& overrides,
+                         const std::vector<ConfigCheck>& checks) {
+  ConfigSource source{file.name};
+  const std::vector<ConfigLayer> layers =
+      with_preset({std::move(file), override_layer(overrides)}, &source);
   DaemonConfig config;
-  read_layers(layers, &source, [&](ConfigReader& root) { config = read_root(root); });
-  config.source = {name, std::move(source.keys)};
+  read_layers(layers, &source, [&](ConfigReader& root) {
+    config = read_root(root);
+    config.source = {source.name, source.keys};
+    for (const ConfigCheck& check : checks) root.attempt([&] { check(config); });
+  });
   return config;
 }
 
 }  // namespace
 
-DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides) {
-  return load_config_text(read_config_file(path), path, overrides);
+DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides,
+                         const std::vector<ConfigCheck>& checks) {
+  return load_config_text(read_config_file(path), path, overrides, checks);
 }
 
 DaemonConfig load_config_text(const std::string& text, const std::string& name,
-                              const std::vector<std::string>& overrides) {
-  return load_layers(text_layer(text, name), overrides);
+                              const std::vector<std::string>& overrides,
+                              const std::vector<ConfigCheck>& checks) {
+  return load_layers(text_layer(text, name), overrides, checks);
 }
 
-DaemonConfig load_preset(const std::string& name, const std::vector<std::string>& overrides) {
+DaemonConfig load_preset(const std::string& name, const std::vector<std::string>& overrides,
+                         const std::vector<ConfigCheck>& checks) {
   find_preset(name, "--preset");
-  return load_layers(text_layer("preset: " + name, "preset " + name), overrides);
+  return load_layers(text_layer("preset: " + name, "preset " + name), overrides, checks);
 }
 
 std::string text_override(const std::string& key, const std::string& value) {

@@ -3,6 +3,7 @@
 // Built-in defaults are overridden by a preset (the key `preset`), the preset by the keys of the
 // file, and these by the overrides of the command line, key by key.
 #pragma once
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,17 +19,24 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// What else has to be right for a certain use: throws ConfigError where it is not, which is told
+// with all other errors. A key that cannot be used has its default meanwhile.
+using ConfigCheck = std::function<void(const DaemonConfig&)>;
+
 // A key that is unknown, repeated, of the wrong type or out of range throws ConfigError. Each
 // override is "group.key=value", value in YAML, and is judged like the file. Files that the
 // configuration names are read here and once; `source` of the result has their contents.
-DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides = {});
+DaemonConfig load_config(const std::string& path, const std::vector<std::string>& overrides = {},
+                         const std::vector<ConfigCheck>& checks = {});
 
 // Loads from text; `name` stands for the file in errors.
 DaemonConfig load_config_text(const std::string& text, const std::string& name,
-                              const std::vector<std::string>& overrides = {});
+                              const std::vector<std::string>& overrides = {},
+                              const std::vector<ConfigCheck>& checks = {});
 
 // Loads a preset alone.
-DaemonConfig load_preset(const std::string& name, const std::vector<std::string>& overrides = {});
+DaemonConfig load_preset(const std::string& name, const std::vector<std::string>& overrides = {},
+                         const std::vector<ConfigCheck>& checks = {});
 
 // Returns the override that sets `key` to exactly `value`, which YAML might otherwise read as
 // another type.

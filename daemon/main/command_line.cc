@@ -6,7 +6,6 @@
 #include <iostream>
 #include <string>
 #include <system_error>
-#include <tuple>
 #include <vector>
 
 #include "daemon/config/effective_config.h"
@@ -72,7 +71,7 @@ bool CommandLine::asks_for_run(int argc, char** argv) {
   return !checks;
 }
 
-DaemonConfig CommandLine::load() const {
+std::vector<std::string> CommandLine::overrides() const {
   std::vector<std::string> overrides;
   if (arguments_.has("--lcm-url")) {
     overrides.push_back(text_override("lcm.url", arguments_.get("--lcm-url")));
@@ -80,9 +79,14 @@ DaemonConfig CommandLine::load() const {
   if (arguments_.has("--journal")) {
     overrides.push_back(text_override("journal.path", arguments_.get("--journal")));
   }
-  DaemonConfig config = load_configuration(arguments_, overrides);
-  require_journal(config);
-  return config;
+  return overrides;
+}
+
+RunConfiguration CommandLine::load() const {
+  RunConfiguration run;
+  const auto make_gate = [&run](const DaemonConfig& config) { run.gate = configured_gate(config); };
+  run.config = load_configuration(arguments_, overrides(), {require_journal, make_gate});
+  return run;
 }
 
 DaemonConfig CommandLine::load_again() const {
@@ -90,12 +94,11 @@ DaemonConfig CommandLine::load_again() const {
   std::error_code error;
   if (!file.empty() && !std::filesystem::is_regular_file(file, error))
     throw ConfigError(file + ": is no file that can be read again; restart leonavd");
-  return load();
+  return load_configuration(arguments_, overrides(), {require_journal});
 }
 
 void CommandLine::print_configuration() const {
-  const DaemonConfig config = load();
-  std::ignore = configured_gate(config);
+  const DaemonConfig config = load().config;
   const bool changes = arguments_.has("--changes");
   std::cout << effective_text(config.source, changes ? Extent::kChanges : Extent::kAllKeys);
   spdlog::info("{}: good", config.source.name);

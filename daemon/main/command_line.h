@@ -1,9 +1,20 @@
 // The CommandLine of leonavd: its options, and what they ask for.
 #pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "daemon/commands/command_gate.h"
 #include "daemon/config/daemon_config.h"
 #include "tools/common/arguments.h"
 
 namespace leonav {
+
+// What a run begins with.
+struct RunConfiguration {
+  DaemonConfig config;
+  std::unique_ptr<CommandGate> gate;  // nullptr: commands need no key
+};
 
 class CommandLine {
  public:
@@ -14,12 +25,13 @@ class CommandLine {
   bool asks_for_run(int argc, char** argv);
 
   // The configuration with everything the command line changes in it, so that a journal holds it
-  // all. Throws UsageError, ConfigError.
-  DaemonConfig load() const;
-  // The same while the daemon runs: from a file only, because a pipe could hold it up.
+  // all. Throws UsageError, and ConfigError, which tells of the key for commands too.
+  RunConfiguration load() const;
+  // The configuration while the daemon runs: from a file only, because a pipe could hold it up.
   DaemonConfig load_again() const;
 
  private:
+  std::vector<std::string> overrides() const;
   void print_configuration() const;
 
   Arguments arguments_;

@@ -15,7 +15,6 @@
 #include "daemon/link/lcm_publisher.h"
 #include "daemon/link/service_manager.h"
 #include "daemon/main/command_line.h"
-#include "daemon/main/configured_gate.h"
 #include "daemon/process/one_blas_thread.h"
 #include "daemon/process/process_signals.h"
 #include "daemon/process/timely_end.h"
@@ -69,9 +68,8 @@ int tell_end(Engine* engine, bool is_complete, bool io_failed, const std::string
 
 int run(const CommandLine& command_line) {
   std::signal(SIGHUP, SIG_IGN);  // until there is something to reload
-  DaemonConfig config = command_line.load();
+  auto [config, gate] = command_line.load();
   set_log_level(config.log.level);
-  const std::unique_ptr<CommandGate> gate = configured_gate(config);
   prepare_memory();
   start_log_thread();
   const ChannelLock lock(config.lcm);

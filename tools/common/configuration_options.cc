@@ -1,6 +1,5 @@
 #include "tools/common/configuration_options.h"
 
-#include "daemon/config/load_config.h"
 #include "daemon/config/presets.h"
 
 namespace leonav {
@@ -23,15 +22,16 @@ bool has_configuration(const Arguments& arguments) {
 }
 
 DaemonConfig load_configuration(const Arguments& arguments,
-                                const std::vector<std::string>& overrides) {
+                                const std::vector<std::string>& overrides,
+                                const std::vector<ConfigCheck>& checks) {
   std::vector<std::string> all = arguments.all("--set");
   all.insert(all.end(), overrides.begin(), overrides.end());
   if (!has_configuration(arguments)) {
     throw UsageError("--config is missing; give --config FILE or --preset NAME (" +
                      arguments.program() + " --help)");
   }
-  if (arguments.has("--preset")) return load_preset(arguments.get("--preset"), all);
-  return load_config(arguments.required("--config"), all);
+  if (arguments.has("--preset")) return load_preset(arguments.get("--preset"), all, checks);
+  return load_config(arguments.required("--config"), all, checks);
 }
 
 }  // namespace leonav

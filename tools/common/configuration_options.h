@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/config/daemon_config.h"
+#include "daemon/config/load_config.h"
 #include "tools/common/arguments.h"
 
 namespace leonav {
@@ -16,8 +16,10 @@ void add_configuration_options(Arguments* arguments);
 bool has_configuration(const Arguments& arguments);
 
 // Loads the file, or the preset alone, with the overrides of --set and then `overrides`. Throws
-// UsageError if neither is given or both are, ConfigError if the configuration is wrong.
+// UsageError if neither is given or both are, ConfigError if the configuration is wrong or one of
+// `checks` finds it so.
 DaemonConfig load_configuration(const Arguments& arguments,
-                                const std::vector<std::string>& overrides = {});
+                                const std::vector<std::string>& overrides = {},
+                                const std::vector<ConfigCheck>& checks = {});
 
 }  // namespace leonav

@@ -23,29 +23,34 @@ bool gives_imu(const StreamConfig& stream) {
   return (!stream.is_service && !is_receiver(stream)) || stream.is_inertial;
 }
 
+void refuse_names(const ConfigReader& root, const std::vector<StreamConfig>& streams) {
+  if (streams.size() > kMaxStreams) root.report("streams", "more than 64");
+  std::set<std::string> names;
+  for (const StreamConfig& stream : streams) {
+    if (!stream.name.empty() && !names.insert(stream.name).second) {
+      root.report("streams", "two are named '" + stream.name + "'; give each its own name");
+    }
+  }
+}
+
 // Two senders on one channel would be one stream with twice the messages.
 void refuse_conflicts(const ConfigReader& root, const std::vector<StreamConfig>& streams) {
-  if (streams.empty()) root.fail("streams", "must list at least one stream");
-  if (streams.size() > kMaxStreams) root.fail("streams", "more than 64");
-  std::set<std::string> names;
+  if (streams.empty()) root.report("streams", "must list at least one stream");
   int receivers = 0, inertial = 0, inputs = 0;
   for (const StreamConfig& stream : streams) {
-    if (!names.insert(stream.name).second) {
-      root.fail("streams", "two are named '" + stream.name + "'; give each its own name");
-    }
     receivers += is_receiver(stream);
     inertial += gives_imu(stream);
     inputs += std::holds_alternative<InputOptions>(stream.source);
   }
   if (receivers > 1 || inertial > 1) {
-    root.fail("streams", receivers > 1
-                             ? "two receivers would publish on one channel, GNSS_EPOCH; run "
-                               "leonav-connect once for each, with another lcm.prefix"
-                             : "two inertial sensors would publish on one channel, IMU; run "
-                               "leonav-connect once for each, with another lcm.prefix, or leave "
-                               "out 'inertial: true' of a receiver's stream");
+    root.report("streams", receivers > 1
+                               ? "two receivers would publish on one channel, GNSS_EPOCH; run "
+                                 "leonav-connect once for each, with another lcm.prefix"
+                               : "two inertial sensors would publish on one channel, IMU; run "
+                                 "leonav-connect once for each, with another lcm.prefix, or leave "
+                                 "out 'inertial: true' of a receiver's stream");
   }
-  if (inputs > 1) root.fail("streams", "only one can be read from standard input");
+  if (inputs > 1) root.report("streams", "only one can be read from standard input");
 }
 
 void read_pulse(ConfigReader& group, PulseConfig* pulse) {
@@ -63,14 +68,14 @@ void refuse_lonely_pulse(const ConfigReader& root, const ConnectConfig& config) 
         return stream.name == config.pulse.stream && !stream.is_service && !is_receiver(stream);
       });
   if (!has_sensor) {
-    root.fail("time", "pulse.stream is '" + config.pulse.stream +
-                          "', but no stream of an inertial sensor has this name");
+    root.report("time", "pulse.stream is '" + config.pulse.stream +
+                            "', but no stream of an inertial sensor has this name");
   }
   const bool has_receiver =
       std::any_of(config.streams.begin(), config.streams.end(),
                   [](const StreamConfig& stream) { return stream.format == FormatKind::kUbx; });
   if (!has_receiver) {
-    root.fail("time", "pulse needs a stream of the format ubx, whose receiver sees the pulses");
+    root.report("time", "pulse needs a stream of the format ubx, whose receiver sees the pulses");
   }
 }
 
@@ -113,7 +118,8 @@ void read_expected_orbits(ConfigReader& root, ExpectedOrbits* expected) {
   for (const std::string& name : names) {
     const auto system = system_from_string(name);
     if (!system || *system == System::kLeo) {
-      root.fail("warn_without_ephemerides", "'" + name + "' is not one of gps, galileo, beidou");
+      root.report("warn_without_ephemerides", "'" + name + "' is not one of gps, galileo, beidou");
+      continue;
     }
     (*expected)[index_of(*system)] = true;
   }
@@ -179,11 +185,13 @@ ConnectConfig load_connect_config(const std::string& path,
     read_expected_orbits(root, &config.expected_orbits);
     root.number("playback_speed", {0.01, 1000.0}, &config.playback_speed);
     root.number("status_interval_s", {0.0, 3600.0}, &config.status_interval_s);
+    const std::size_t errors_before = source.errors.size();
     root.groups("streams", [&](ConfigReader& group) {
       read_stream(group, folder, &config.streams.emplace_back());
     });
-    // A stream with an error is not read to its end, so its kind may not be known.
-    if (!source.errors.empty()) return;
+    refuse_names(root, config.streams);
+    // What a stream with an error is meant to be may not be known.
+    if (source.errors.size() > errors_before) return;
     refuse_conflicts(root, config.streams);
     refuse_lonely_pulse(root, config);
   });

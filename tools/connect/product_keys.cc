@@ -45,7 +45,7 @@ void read_antennas(ConfigReader& group, const ProductKeys& keys, FileProducts* p
   group.text(kReceiverAntenna, &receiver, "type and radome");
   if (paths.empty()) {
     if (!receiver.empty()) {
-      group.fail(kReceiverAntenna, "is of no use without antenna_models, which have its model");
+      group.report(kReceiverAntenna, "is of no use without antenna_models, which have its model");
     }
     return;
   }

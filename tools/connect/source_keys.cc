@@ -17,7 +17,7 @@ enum class SourceKind : std::uint8_t { kSerial, kTcp, kNtrip, kTcpServer, kUdp, 
 
 std::uint16_t read_port(ConfigReader& group, int port) {
   group.integer("port", 0, 65'535, &port);
-  if (port == 0) group.fail("port", "must be given, from 1 to 65535");
+  if (port == 0) group.report("port", "must be given, from 1 to 65535");
   return static_cast<std::uint16_t>(port);
 }
 
@@ -41,10 +41,10 @@ std::string read_host(ConfigReader& group, const std::string& remedy) {
   std::string host;
   group.text("host", &host);
   if (!is_host(host)) {
-    group.fail("host",
-               "must be a name or an address alone, such as caster.example or 192.168.1.10; "
-               "the port has its own key, 'port'" +
-                   remedy);
+    group.report("host",
+                 "must be a name or an address alone, such as caster.example or 192.168.1.10; "
+                 "the port has its own key, 'port'" +
+                     remedy);
   }
   return host;
 }
@@ -54,7 +54,7 @@ SerialOptions read_serial(ConfigReader& group) {
   int baud = 115'200;
   group.text("device", &options.device);
   group.integer("baud", 300, 12'000'000, &baud);
-  if (options.device.empty()) group.fail("device", "must name a port, such as /dev/ttyACM0");
+  if (options.device.empty()) group.report("device", "must name a port, such as /dev/ttyACM0");
   options.baud = static_cast<unsigned>(baud);
   return options;
 }
@@ -72,9 +72,9 @@ ListenOptions read_listen(ConfigReader& group) {
   boost::system::error_code wrong;
   boost::asio::ip::make_address(options.address, wrong);
   if (wrong) {
-    group.fail("address",
-               "must be an address of this machine: 127.0.0.1 for programs on it, "
-               "0.0.0.0 for all of its networks");
+    group.report("address",
+                 "must be an address of this machine: 127.0.0.1 for programs on it, "
+                 "0.0.0.0 for all of its networks");
   }
   options.port = read_port(group, 0);
   return options;
@@ -85,15 +85,16 @@ void read_position(ConfigReader& group, NtripOptions* options) {
   group.numbers("position", {-10'000.0, 10'000.0}, &values);
   if (values.empty()) return;
   if (values.size() != 3 || std::abs(values[0]) > 90.0 || std::abs(values[1]) > 180.0) {
-    group.fail("position",
-               "must be [latitude, longitude, height]: degrees from -90 to 90, degrees "
-               "from -180 to 180, metres above the ellipsoid");
+    group.report("position",
+                 "must be [latitude, longitude, height]: degrees from -90 to 90, degrees "
+                 "from -180 to 180, metres above the ellipsoid");
+  } else {
+    const ReportedPosition position{values[0] * kDegree, values[1] * kDegree, values[2]};
+    options->position_line = [position] { return position_line_now(position); };
   }
-  const ReportedPosition position{values[0] * kDegree, values[1] * kDegree, values[2]};
-  options->position_line = [position] { return position_line_now(position); };
   group.number("position_interval_s", {0.0, 3600.0}, &options->position_interval_s);
   if (options->position_interval_s > 0.0 && options->position_interval_s < 1.0)
-    group.fail("position_interval_s", "must be at least 1 s, or 0 for once");
+    group.report("position_interval_s", "must be at least 1 s, or 0 for once");
 }
 
 NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {
@@ -104,7 +105,7 @@ NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {
   options.port = read_port(group, options.port);
   group.text("mountpoint", &options.mountpoint);
   if (!is_one_word(options.mountpoint) || options.mountpoint.find('/') != std::string::npos) {
-    group.fail("mountpoint", "must name a stream of the caster's source table, without a slash");
+    group.report("mountpoint", "must name a stream of the caster's source table, without a slash");
   }
   group.choice<NtripVersion>(
       "version", {{"auto", NtripVersion::kAuto}, {"1", NtripVersion::k1}, {"2", NtripVersion::k2}},
@@ -116,10 +117,10 @@ NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {
   options.credentials_file = in_folder(folder, options.credentials_file);
   read_position(group, &options);
   if (const std::string problem = problem_of_credentials(options); !problem.empty()) {
-    group.fail("credentials_file", problem);
+    group.report("credentials_file", problem);
   }
   if (const std::string problem = problem_of_authority(options); !problem.empty()) {
-    group.fail("ca_file", problem);
+    group.report("ca_file", problem);
   }
   return options;
 }
@@ -127,7 +128,7 @@ NtripOptions read_ntrip(ConfigReader& group, const std::string& folder) {
 FileOptions read_file(ConfigReader& group, const std::string& folder) {
   FileOptions options;
   group.text("path", &options.path);
-  if (options.path.empty()) group.fail("path", "must name a recording or a file of bytes");
+  if (options.path.empty()) group.report("path", "must name a recording or a file of bytes");
   options.path = in_folder(folder, options.path);
   return options;
 }

@@ -26,41 +26,45 @@ const std::vector<std::pair<std::string, LineColumn>> kColumns = {
     {"clock_ms", LineColumn::kClockMs},  {"clock_us", LineColumn::kClockUs},
     {"clock_ns", LineColumn::kClockNs},  {"interval_s", LineColumn::kIntervalS}};
 
-std::vector<LineColumn> read_columns(ConfigReader& group) {
+// Returns whether all columns are known. Unknown ones are skipped.
+bool read_columns(ConfigReader& group, std::vector<LineColumn>* columns) {
   std::vector<std::string> names;
-  std::vector<LineColumn> columns;
+  bool are_known = true;
   std::string known;
   for (const auto& [name, column] : kColumns) known += (known.empty() ? "" : ", ") + name;
   group.list("columns", &names, "list of " + known);
   for (const std::string& name : names) {
     const auto found = std::find_if(kColumns.begin(), kColumns.end(),
                                     [&name](const auto& one) { return one.first == name; });
-    if (found == kColumns.end()) {
-      group.fail("columns", "'" + name + "' is no column; known are " + known);
-    }
-    columns.push_back(found->second);
+    const bool is_known = found != kColumns.end();
+    if (!is_known) group.report("columns", "'" + name + "' is no column; known are " + known);
+    columns->push_back(is_known ? found->second : LineColumn::kSkip);
+    are_known = are_known && is_known;
   }
-  return columns;
+  return are_known;
 }
 
 void read_axes(ConfigReader& group, std::array<int, 3>* axes) {
   std::vector<std::string> names;
   if (!group.list("axes", &names, "list of the axes that point forward, right, down")) return;
-  if (names.size() != 3) group.fail("axes", "must have three entries: forward, right, down");
+  if (names.size() != 3)
+    return group.report("axes", "must have three entries: forward, right, down");
   for (std::size_t i = 0; i < 3; ++i) {
     std::string name = names[i];
     const bool is_negative = name.starts_with('-');
     if (is_negative) name.erase(0, 1);
     if (name != "x" && name != "y" && name != "z") {
-      group.fail("axes", "'" + names[i] + "' is no axis; use x, y, z, -x, -y, -z");
+      group.report("axes", "'" + names[i] + "' is no axis; use x, y, z, -x, -y, -z");
+      continue;
     }
     const int axis = name[0] - 'x' + 1;
     (*axes)[i] = is_negative ? -axis : axis;
   }
 }
 
-void read_line(ConfigReader& group, LineLayout* layout) {
-  layout->columns = read_columns(group);
+// Returns whether the columns are what is meant.
+bool read_line(ConfigReader& group, LineLayout* layout) {
+  const bool are_known = read_columns(group, &layout->columns);
   group.choice<char>("separator",
                      {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"blank", ' '}},
                      &layout->separator);
@@ -84,9 +88,10 @@ void read_line(ConfigReader& group, LineLayout* layout) {
   layout->gyro_unit *= gyro_scale;
   layout->accel_unit *= accel_scale;
   read_axes(group, &layout->axes);
-  if (const std::string problem = problem_of(*layout); !problem.empty()) {
-    group.fail("columns", problem);
-  }
+  if (!are_known) return false;
+  const std::string problem = problem_of(*layout);
+  if (!problem.empty()) group.report("columns", problem);
+  return problem.empty();
 }
 
 // RTCM has times of week alone; of a live stream the host's clock knows the week.
@@ -96,9 +101,10 @@ void read_day(ConfigReader& group, StreamConfig* stream) {
   group.text("date", &date);
   const std::optional<GpsTime> day = noon_of(date);
   if (!day)
-    group.fail("date",
-               "must be the day of the recording, written as 2024-03-20: RTCM 3 gives no week");
-  stream->day = *day;
+    group.report("date",
+                 "must be the day of the recording, written as 2024-03-20: RTCM 3 gives no week");
+  else
+    stream->day = *day;
 }
 
 void read_imu_scale(ConfigReader& group, std::optional<ImuScale>* imu_scale) {
@@ -106,7 +112,9 @@ void read_imu_scale(ConfigReader& group, std::optional<ImuScale>* imu_scale) {
   group.numbers("imu_scale", {0.0, 1.0}, &scale);
   if (scale.empty()) return;
   if (scale.size() != 2 || scale[0] <= 0.0 || scale[1] <= 0.0) {
-    group.fail("imu_scale", "must be two numbers above 0: what a count stands for, in rad and m/s");
+    group.report("imu_scale",
+                 "must be two numbers above 0: what a count stands for, in rad and m/s");
+    return;
   }
   *imu_scale = ImuScale{scale[0], scale[1]};
 }
@@ -121,7 +129,7 @@ bool has_clock(const LineLayout& layout) {
 
 void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* stream) {
   group.text("name", &stream->name);
-  if (stream->name.empty()) group.fail("name", "must be given: messages tell streams by it");
+  if (stream->name.empty()) group.report("name", "must be given: messages tell streams by it");
   read_source(group, folder, &stream->source);
   group.choice<FormatKind>("format",
                            {{"ubx", FormatKind::kUbx},
@@ -135,14 +143,15 @@ void read_stream(ConfigReader& group, const std::string& folder, StreamConfig* s
                             {"b2b", FormatKind::kB2b}},
                            &stream->format);
   if (stream->format == FormatKind::kImuLine) {
-    group.group("line", [&](ConfigReader& line) { read_line(line, &stream->line); });
+    bool has_columns = true;
+    group.group("line", [&](ConfigReader& line) { has_columns = read_line(line, &stream->line); });
     group.number("rate_hz", {0.0, 10'000.0}, &stream->stamps.rate_hz);
-    if (stream->line.columns.empty()) group.fail("line", "must describe the columns");
-    if (!has_clock(stream->line) && stream->stamps.rate_hz <= 0.0) {
-      group.fail("rate_hz", "must be given where no column is a time: lines are then counted");
+    if (stream->line.columns.empty()) group.report("line", "must describe the columns");
+    if (has_columns && !has_clock(stream->line) && stream->stamps.rate_hz <= 0.0) {
+      group.report("rate_hz", "must be given where no column is a time: lines are then counted");
     }
-    if (has_clock(stream->line) && stream->stamps.rate_hz > 0.0) {
-      group.fail("rate_hz", "is for lines without a column of time; leave it out");
+    if (has_columns && has_clock(stream->line) && stream->stamps.rate_hz > 0.0) {
+      group.report("rate_hz", "is for lines without a column of time; leave it out");
     }
   }
   if (stream->format == FormatKind::kRtcm3) {

@@ -32,11 +32,12 @@ void read_sentences(ConfigReader& root, std::vector<SentenceKind>* sentences) {
     const auto found = std::find_if(kKinds.begin(), kKinds.end(),
                                     [&name](const auto& one) { return one.first == name; });
     if (found == kKinds.end()) {
-      root.fail("sentences", "'" + name + "' is none; known are " + known);
+      root.report("sentences", "'" + name + "' is none; known are " + known);
+    } else {
+      sentences->push_back(found->second);
     }
-    sentences->push_back(found->second);
   }
-  if (sentences->empty()) root.fail("sentences", "must name at least one of " + known);
+  if (names.empty()) root.report("sentences", "must name at least one of " + known);
 }
 
 // Of a ListenOptions or UdpDestination.
@@ -48,7 +49,7 @@ void read_address(ConfigReader& group, const std::string& remedy, Options* optio
   options->port = static_cast<std::uint16_t>(port);
   boost::system::error_code error;
   boost::asio::ip::make_address(options->address, error);
-  if (error) group.fail("address", "'" + options->address + "' is no " + remedy);
+  if (error) group.report("address", "'" + options->address + "' is no " + remedy);
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ ServeConfig load_serve_config(const std::string& path, const std::vector<std::st
     root.group("pty", [&](ConfigReader& group) { group.text("link", &config.pty_link); });
     if (config.tcp.port == 0 && config.udp.port == 0 && config.serial.device.empty() &&
         config.pty_link.empty()) {
-      root.fail("tcp", "there is no output; give tcp.port, udp.port, serial.device or pty.link");
+      root.report("tcp", "there is no output; give tcp.port, udp.port, serial.device or pty.link");
     }
   };
   if (path.empty()) {

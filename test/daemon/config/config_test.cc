@@ -1,4 +1,6 @@
 // Every way to get the configuration wrong names its place and the remedy.
+#include <algorithm>
+
 #include "config_error.h"
 #include "daemon/config/load_config.h"
 #include "drivers/lcm/channels.h"
@@ -65,6 +67,44 @@ TEST_CASE("all errors of a configuration are told at once, each in a line and on
       "car.yaml:5: ekf.reset_epochs: must be a whole number\n"
       "car.yaml:7: lcm.prefix: only letters, digits, '_' and '-' may be in it\n"
       "car.yaml:8: journal: expected a group of keys (\"key: value\" lines)");
+}
+
+TEST_CASE("what contradicts within a group hides neither the rest of it nor its unknown keys") {
+  CHECK(error_of("journal: {path: x, total_mb: 10, kept_mb: 10, piece_md: 5}\n"
+                 "robust: {k0: 5, k1: 1, foo: 1}\n"
+                 "lcm: {url: \"\", prefixx: x}\n") ==
+        "car.yaml:2: robust.k1: must be greater than k0\n"
+        "car.yaml:2: robust.foo: unknown key; known here: enabled, k0, k1, max_iterations\n"
+        "car.yaml:3: lcm.url: must not be empty\n"
+        "car.yaml:3: lcm.prefixx: unknown key; did you mean 'prefix'?\n"
+        "car.yaml:1: journal.total_mb: must be at least twice piece_mb, or 0\n"
+        "car.yaml:1: journal.kept_mb: must be at least twice piece_mb, or 0\n"
+        "car.yaml:1: journal.piece_md: unknown key; did you mean 'piece_mb'?");
+  const std::string gnss = error_of(
+      "gnss: {systems: [foo, gps, gps], elevation_mask_deg: 500, cn0_mask_dbhz: 999, nonsense: 1,\n"
+      "  gps: {first_band: x, second_bands: [x, 5, 5], code_sigma_m: -1},\n"
+      "  polar_motion_x_arcsec: 0.1, ocean_loading_station: here, nonsense: 2}\n");
+  for (const char* wrong :
+       {"1: gnss.systems: 'foo' is not one of", "1: gnss.systems: 'gps' is given twice",
+        "1: gnss.elevation_mask_deg: 500 is out of range", "1: gnss.cn0_mask_dbhz: 999 is out of",
+        "1: gnss.nonsense: unknown key", "2: gnss.gps.first_band: must be one RINEX band digit",
+        "2: gnss.gps.second_bands: 'x' is not one", "2: gnss.gps.second_bands: '5' is given twice",
+        "2: gnss.gps.code_sigma_m: -1 is out of range", "3: gnss.polar_motion_x_arcsec: is given",
+        "3: gnss.ocean_loading_station: is of no use", "3: gnss.nonsense: unknown key"})
+    CHECK_THAT(gnss, Catch::Contains(std::string("car.yaml:") + wrong));
+  CHECK(std::count(gnss.begin(), gnss.end(), '\n') == 11);
+}
+
+TEST_CASE("an unknown preset hides no other error, and checks for a use are told with the rest") {
+  const auto refuse = [](const leonav::DaemonConfig& config) {
+    throw ConfigError(config.source.place_of("log.level") + ": not for this use");
+  };
+  CHECK_THROWS_WITH(
+      load_config_text("preset: cart\nlog: {level: info}\nekf: {reset_epoch: 1}\n", "car.yaml", {},
+                       {refuse, refuse}),
+      Catch::StartsWith("car.yaml:1: preset: unknown preset 'cart'; did you mean 'car'?") &&
+          Catch::Contains("car.yaml:3: ekf.reset_epoch: unknown key") &&
+          Catch::Contains("\ncar.yaml:2: log.level: not for this use"));
 }
 
 TEST_CASE("signals without an atmosphere are said so by name") {

@@ -134,6 +134,21 @@ TEST_CASE("a journal that can never be written is told at once") {
   CHECK(kept.err.find("--set journal.path: 'run.kept' is the name of") != std::string::npos);
 }
 
+TEST_CASE("what a run needs beyond a good configuration is told with all other errors") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile file("vehicle.yaml",
+                                 "preset: car\njournal: {path: x.kept, piece_s: 5, piece: 1}\n"
+                                 "commands: {key_file: /nowhere/key}\n");
+  for (const char* run : {"--config '", "--check '"}) {
+    const auto refused = test::run_program("leonavd", run + file.path() + "' --lcm-url memq://");
+    CHECK(refused.exit_code == 3);
+    for (const char* wrong :
+         {":2: journal.piece: unknown key", ":2: journal.path: 'x.kept' is the name of",
+          ":2: journal.piece_s: must be at least 10", ":3: commands.key_file: /nowhere/key"})
+      CHECK_THAT(refused.err, Catch::Contains(file.path() + wrong));
+  }
+}
+
 TEST_CASE("leonavd --check prints the effective configuration, or says what is wrong") {
   if (!test::have_programs("leonavd")) return;
   const test::TemporaryFile file("vehicle.yaml",

@@ -3,6 +3,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -326,7 +327,7 @@ TEST_CASE("A mistake is told with its line and the remedy", "[connect]") {
   CHECK_THAT(
       problem(stream(serial + ", format: ubx") + "  - {name: b, source: stdin, format: ubx}\n"),
       Catch::Contains("two receivers"));
-  // The caster's stream is not read as far as 'corrections'.
+  // What a stream with an error is meant to be is not judged.
   CHECK_THAT(problem(stream(serial + ", format: ubx") +
                      "  - {name: b, source: ntrip, host: c, mountpoint: m, format: rtcm3, "
                      "corrections: true, credentials_file: /nowhere/to/be/found}\n"),
@@ -340,6 +341,35 @@ TEST_CASE("A mistake is told with its line and the remedy", "[connect]") {
   CHECK_THAT(lines("columns: [clock_s, " + columns + "], axes: [x, y, -z]"),
              Catch::Contains("mirrored"));
   CHECK_THAT(lines("columns: [clock, " + columns + "]"), Catch::Contains("'clock' is no column"));
+}
+
+TEST_CASE("All mistakes of all streams are told at once, and nothing that follows from one",
+          "[connect]") {
+  std::string problem;
+  try {
+    load(
+        "lcm: {url: ''}\nstreams:\n"
+        "  - {name: a, source: ntrip, host: x@y, position: [91, 0, 0], position_interval_s: 0.5,\n"
+        "     format: rtcm3, silent_s: 0}\n"
+        "  - {source: serial, format: imu_line, buad: 1,\n"
+        "     line: {columns: [clock, gyro], axes: [x, v, w], prefx: A}}\n"
+        "  - {name: a, source: stdin, format: ubx}\n");
+  } catch (const ConfigError& error) {
+    problem = error.what();
+  }
+  for (const char* wrong :
+       {"1: lcm.url: must not be empty", "3: streams[0].host: must be a name",
+        "3: streams[0].mountpoint: must name a stream", "3: streams[0].position: must be [lat",
+        "3: streams[0].position_interval_s: must be at least 1 s", "4: streams[0].silent_s: 0 is",
+        "5: streams[1].name: must be given", "5: streams[1].device: must name a port",
+        "6: streams[1].line.columns: 'clock' is no column",
+        "6: streams[1].line.columns: 'gyro' is no column",
+        "6: streams[1].line.axes: 'v' is no axis", "6: streams[1].line.axes: 'w' is no axis",
+        "6: streams[1].line.prefx: unknown key", "5: streams[1].buad: unknown key",
+        "3: streams: two are named 'a'"}) {
+    CHECK_THAT(problem, Catch::Contains(std::string("connect.yaml:") + wrong));
+  }
+  CHECK(std::count(problem.begin(), problem.end(), '\n') == 14);
 }
 
 }  // namespace leonav

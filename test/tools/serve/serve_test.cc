@@ -199,6 +199,17 @@ TEST_CASE("The example configuration is good, and mistakes are told with the rem
   CHECK_THAT(problem({"udp.port=1", "udp.address=here"}), Catch::Contains("broadcast"));
   CHECK(problem({"udp.port=1", "udp.address=192.168.1.255"}) == "none");
   CHECK_THAT(problem({"tcp.prot=1"}), Catch::Contains("tcp.prot"));
+  // All of them at once.
+  CHECK(problem({"sentences=[GLL, GGA, GLM]", "udp.address=here", "udp.prot=1", "rate_hs=1",
+                 "lcm.url=\"\"", "lcm.prefix=A B"}) ==
+        "--set lcm.url: must not be empty\n"
+        "--set sentences: 'GLL' is none; known are GGA, RMC, VTG, GST, GSA, GSV, HDT, ZDA\n"
+        "--set sentences: 'GLM' is none; known are GGA, RMC, VTG, GST, GSA, GSV, HDT, ZDA\n"
+        "--set udp.address: 'here' is no numeric address; use that of the reader, 127.0.0.1 for "
+        "one on this host, or the network's broadcast address\n"
+        "--set udp.prot: unknown key; did you mean 'port'?\n"
+        "--set tcp: there is no output; give tcp.port, udp.port, serial.device or pty.link\n"
+        "--set rate_hs: unknown key; did you mean 'rate_hz'?");
 }
 
 }  // namespace leonav

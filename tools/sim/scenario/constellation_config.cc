@@ -21,12 +21,13 @@ void read_shell(ConfigReader& group, ConstellationConfig* c) {
   group.number("phase_per_plane_deg", kAngle, &shell.phase_per_plane, kDegree);
   group.number("first_anomaly_deg", kAngle, &shell.first_anomaly, kDegree);
   group.integer("first_number", 1, kHighestNumber[index_of(c->system)], &shell.first_number);
-  if (shell.semi_major_axis_m == 0.0) group.fail("semi_major_axis_km", "must be given");
   constexpr double kLowestPerigee_m = 6.5e6;
-  if (shell.semi_major_axis_m * (1.0 - shell.eccentricity) < kLowestPerigee_m) {
-    group.fail("eccentricity",
-               "takes the orbit below 6500 km from the Earth's centre: "
-               "semi_major_axis_km (1 - eccentricity) must be at least that");
+  if (shell.semi_major_axis_m == 0.0) {
+    group.report("semi_major_axis_km", "must be given");
+  } else if (shell.semi_major_axis_m * (1.0 - shell.eccentricity) < kLowestPerigee_m) {
+    group.report("eccentricity",
+                 "takes the orbit below 6500 km from the Earth's centre: "
+                 "semi_major_axis_km (1 - eccentricity) must be at least that");
   }
   c->shells.push_back(shell);
 }
@@ -41,13 +42,13 @@ void check_numbers(const ConfigReader& group, const ConstellationConfig& c) {
     if (shell.first_number != 0) next = shell.first_number;
     for (int i = 0; i < shell.planes * shell.per_plane; ++i, ++next) {
       if (next > highest) {
-        group.fail("shells",
-                   "have satellites beyond number " + std::to_string(highest) +
-                       ", the highest of the system; take away satellites, or set only_risen");
+        return group.report(
+            "shells", "have satellites beyond number " + std::to_string(highest) +
+                          ", the highest of the system; take away satellites, or set only_risen");
       }
       if (taken[static_cast<std::size_t>(next)]) {
-        group.fail("shells",
-                   "have number " + std::to_string(next) + " twice; mend first_number of a shell");
+        return group.report("shells", "have number " + std::to_string(next) +
+                                          " twice; mend first_number of a shell");
       }
       taken[static_cast<std::size_t>(next)] = true;
     }
@@ -69,18 +70,17 @@ void read_signals(ConfigReader& group, ConstellationConfig* c) {
   for (const SignalCode signal : c->signals) names.push_back(to_string(signal));
   group.list("signals", &names, "list of two RINEX codes");
   if (names.size() != c->signals.size() || names[0] == names[1]) {
-    group.fail("signals", "must be two different RINEX codes, as [9S, 3C]");
+    return group.report("signals", "must be two different RINEX codes, as [9S, 3C]");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto signal = signal_from_string(names[i]);
     if (!signal) {
-      group.fail("signals", "'" + names[i] + "' is no RINEX code: a band 1 to 9 and a letter");
+      group.report("signals", "'" + names[i] + "' is no RINEX code: a band 1 to 9 and a letter");
+    } else if (!(c->bands.frequency_hz(c->system, signal->band) > 0.0)) {
+      group.report("signals", "'" + names[i] + "' is on a band without a carrier: give bands_mhz." +
+                                  signal->band + " in MHz");
     }
-    if (!(c->bands.frequency_hz(c->system, signal->band) > 0.0)) {
-      group.fail("signals", "'" + names[i] + "' is on a band without a carrier: give bands_mhz." +
-                                signal->band + " in MHz");
-    }
-    c->signals[i] = *signal;
+    if (signal) c->signals[i] = *signal;
   }
 }
 
@@ -92,7 +92,7 @@ void read_constellation(ConfigReader& group, ConstellationConfig* c) {
   group.boolean("only_risen", &c->only_risen);
   group.text("file", &c->file);
   if (!c->file.empty() && c->system == System::kLeo) {
-    group.fail("file", "is for GPS, Galileo and BeiDou; give shells for low satellites");
+    group.report("file", "is for GPS, Galileo and BeiDou; give shells for low satellites");
   }
   group.choice<ProvidedProducts>("told",
                                  {{"precise", ProvidedProducts::kPrecise},

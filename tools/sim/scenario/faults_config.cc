@@ -11,16 +11,20 @@ void read_whom(ConfigReader& group, Fault* fault) {
   if (group.list("systems", &names)) {
     for (const std::string& name : names) {
       const auto system = system_from_string(name);
-      if (!system) group.fail("systems", "'" + name + "' is none of gps, galileo, beidou, leo");
-      fault->systems.push_back(*system);
+      if (system)
+        fault->systems.push_back(*system);
+      else
+        group.report("systems", "'" + name + "' is none of gps, galileo, beidou, leo");
     }
   }
   names.clear();
   if (group.list("satellites", &names)) {
     for (const std::string& name : names) {
       const auto satellite = satellite_from_string(name);
-      if (!satellite) group.fail("satellites", "'" + name + "' is no satellite, as G05 or L12 is");
-      fault->satellites.push_back(*satellite);
+      if (satellite)
+        fault->satellites.push_back(*satellite);
+      else
+        group.report("satellites", "'" + name + "' is no satellite, as G05 or L12 is");
     }
   }
 }
@@ -85,7 +89,7 @@ void read_fault(ConfigReader& group, std::vector<Fault>* faults) {
                           &fault.kind);
   group.number("from_s", {-1e6, 1e6}, &fault.from_s);  // nodes of products lie before the start
   group.number("to_s", {0.0, 1e6}, &fault.to_s);
-  if (!(fault.to_s > fault.from_s)) group.fail("to_s", "must be after from_s");
+  if (!(fault.to_s > fault.from_s)) group.report("to_s", "must be after from_s");
   const bool of_satellites =
       fault.kind == FaultKind::kOutage || fault.kind == FaultKind::kSatelliteClock ||
       fault.kind == FaultKind::kBadOrbit || fault.kind == FaultKind::kSpoofing;

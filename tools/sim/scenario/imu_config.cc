@@ -16,9 +16,9 @@ void read_vibration(ConfigReader& group, double rate_hz, VibrationModel* model) 
   group.number("gyro_deg_s_per_m_s", {0.0, 10.0}, &model->gyro_per_speed, kDegree);
   group.number("low_hz", {0.1, 500.0}, &model->low_hz);
   group.number("high_hz", {0.1, 500.0}, &model->high_hz);
-  if (model->high_hz <= model->low_hz) group.fail("high_hz", "must be greater than low_hz");
+  if (model->high_hz <= model->low_hz) group.report("high_hz", "must be greater than low_hz");
   if (model->active() && model->high_hz >= 0.5 * rate_hz) {
-    group.fail("high_hz", "must be below half of imu.rate_hz: a sensor cannot show more");
+    group.report("high_hz", "must be below half of imu.rate_hz: a sensor cannot show more");
   }
 }
 

@@ -35,7 +35,7 @@ void read_segment(ConfigReader& group, PlacesConfig* places) {
   group.number("multipath", kFactor, &place.multipath);
   group.number("slips", kFactor, &place.slips);
   if (segment.from_s.has_value() == segment.from_m.has_value())
-    group.fail("place", "needs either from_s or from_m, not both");
+    group.report("place", "needs either from_s or from_m, not both");
   segment.place = place;
   segment.where = group.where(segment.from_s ? "from_s" : "from_m");
   places->segments.push_back(segment);

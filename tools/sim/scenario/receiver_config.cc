@@ -53,7 +53,7 @@ void read_tracking(ConfigReader& group, TrackingConfig* tracking) {
   group.number("half_cycle_share", kTrackingShare, &tracking->half_cycle_share);
   group.number("half_cycle_s", kSeconds, &tracking->half_cycle_s);
   if (tracking->hold_dbhz > tracking->acquire_dbhz)
-    group.fail("hold_dbhz", "must not be above acquire_dbhz");
+    group.report("hold_dbhz", "must not be above acquire_dbhz");
 }
 
 void read_multipath(ConfigReader& group, MultipathConfig* multipath) {

@@ -25,11 +25,11 @@ void read_track(ConfigReader& group, const std::filesystem::path& folder, RouteC
   std::string file;
   group.text("file", &file);
   if (file.empty()) return;
-  if (!route->waypoints.empty()) group.fail("file", "and waypoints exclude each other");
+  if (!route->waypoints.empty()) return group.report("file", "and waypoints exclude each other");
   try {
     set_track((folder / file).string(), route);
   } catch (const FileError& error) {
-    group.fail("file", error.what());
+    group.report("file", error.what());
   }
 }
 
@@ -82,7 +82,7 @@ void read_route(ConfigReader& group, const std::filesystem::path& folder, RouteC
   group.number("max_braking_m_s2", {0.1, 50.0}, &route->max_braking_m_s2);
   group.number("max_lateral_m_s2", {0.1, 50.0}, &route->max_lateral_m_s2);
   group.groups("waypoints", [&](ConfigReader& r) { read_waypoint(r, route); });
-  if (route->waypoints.size() == 1) group.fail("waypoints", "one alone makes no road; give two");
+  if (route->waypoints.size() == 1) group.report("waypoints", "one alone makes no road; give two");
   group.number("max_gap_s", {0.01, 60.0}, &route->max_gap_s);
   read_track(group, folder, route);
 }

@@ -44,8 +44,8 @@ void read_root(ConfigReader& root, const std::filesystem::path& folder, Scenario
   root.number("seed", {0.0, 9e15}, &seed);
   root.number("start_gps_week", {1.0, 9999.0}, &week);
   root.number("start_gps_tow_s", {0.0, 604'799.0}, &tow_s);
-  if (seed != std::floor(seed)) root.fail("seed", "must be a whole number");
-  if (week && *week != std::floor(*week)) root.fail("start_gps_week", "must be a whole number");
+  if (seed != std::floor(seed)) root.report("seed", "must be a whole number");
+  if (week && *week != std::floor(*week)) root.report("start_gps_week", "must be a whole number");
   scenario->seed = static_cast<std::uint64_t>(seed);
   root.number("duration_s", {10.0, 86'400.0}, &scenario->duration_s);
   root.number("truth_interval_s", {0.0, 60.0}, &scenario->truth_interval_s);

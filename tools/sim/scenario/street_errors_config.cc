@@ -10,7 +10,8 @@ void read_range(ConfigReader& group, const char* key, Bounds bounds, Range* rang
   std::vector<double> ends = {range->least, range->most};
   group.numbers(key, bounds, &ends);
   if (ends.size() != 2 || ends[0] > ends[1])
-    group.fail(key, "must be two numbers, the least and the most that is drawn, as in [1, 5]");
+    return group.report(key,
+                        "must be two numbers, the least and the most that is drawn, as in [1, 5]");
   *range = {ends[0], ends[1]};
 }
 
@@ -45,7 +46,7 @@ void read_slips(ConfigReader& group, StreetSlipsConfig* slips) {
   group.number("single_share", kStreetShare, &slips->single_share);
   group.number("pair_share", kStreetShare, &slips->pair_share);
   if (slips->single_share + slips->pair_share > 1.0)
-    group.fail("pair_share", "and single_share must not add up to more than 1");
+    group.report("pair_share", "and single_share must not add up to more than 1");
   group.number("told_share", kStreetShare, &slips->told_share);
   group.integer("max_cycles", 1, 1'000'000, &slips->max_cycles);
 }
@@ -58,17 +59,18 @@ void read_library(ConfigReader& group, const std::filesystem::path& folder,
   group.list("recordings", &street->recordings);
   if (street->family != StreetFamily::kRecorded) return;
   if (street->file.empty()) {
-    group.fail("file",
-               "must name a library of residuals; tools/validate street-residuals makes one");
+    return group.report(
+        "file", "must name a library of residuals; tools/validate street-residuals makes one");
   }
   street->file = (folder / street->file).lexically_normal().string();
   if (!std::filesystem::exists(street->file)) {
-    group.fail("file", street->file + " is not there; tools/validate street-residuals makes it");
+    return group.report("file",
+                        street->file + " is not there; tools/validate street-residuals makes it");
   }
   try {
     street->library = std::make_shared<const ResidualLibrary>(street->file, street->recordings);
   } catch (const FileError& error) {
-    group.fail("file", error.what());
+    group.report("file", error.what());
   }
 }
 
