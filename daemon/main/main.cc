@@ -95,8 +95,8 @@ int run(const CommandLine& command_line) {
   if (!config.commands.key_file.empty())
     spdlog::info("commands: only those signed with the key of {}", config.commands.key_file);
 
-  ConfigReload reload([&] { return command_line.load_again(); }, &config, &engine.journal(),
-                      gate.get());
+  ConfigReload reload([command_line] { return command_line.load_again(); }, &config,
+                      &engine.journal(), gate.get());
   Supervisor supervisor(&engine, config, &manager, &lock, &reload);
   manager.ready();
   supervisor.run(&*signals, io);

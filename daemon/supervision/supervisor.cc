@@ -34,14 +34,21 @@ bool Supervisor::wait_for_stop(ProcessSignals* signals) {
         spdlog::info("{}: finishing", signals->name());
         return true;
       case SignalRequest::kReload:
-        manager_->reloading();
-        reload_->reload();
-        manager_->ready();
+        if (!reload_->is_under_way()) manager_->reloading();
+        reload_->ask();
+        if (!reload_->is_under_way()) manager_->ready();
     }
   }
 }
 
+void Supervisor::look_at_reload() {
+  if (!reload_->is_under_way()) return;
+  reload_->look();
+  if (!reload_->is_under_way()) manager_->ready();
+}
+
 void Supervisor::look() {
+  look_at_reload();
   const std::string stalled_threads = threads_.stalled_threads();
   engine_->publish(Channel::kHealth, health_.next(stalled_threads));
   const bool stands_still = answer_.stands_still();

@@ -31,6 +31,7 @@ class Supervisor {
 
  private:
   bool wait_for_stop(ProcessSignals* signals);
+  void look_at_reload();
   void look();
 
   Engine* engine_;

@@ -1,6 +1,8 @@
 // Two runs of the engine, the second from the checkpoint of the first; the journal has it all.
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <thread>
 
@@ -10,6 +12,7 @@
 #include "daemon/engine/engine.h"
 #include "daemon/engine/saved_inputs.h"
 #include "engine_runs.h"
+#include "support/held_disk.h"
 #include "support/programs/program_run.h"
 #include "support/temporary_file.h"
 #include "support/wait_a_moment.h"
@@ -150,6 +153,42 @@ TEST_CASE("an old or a hostile checkpoint is counted and changes nothing of the 
   const auto without = test::run_navigator(config.navigator, list, {});
   CHECK(old.groups[0] == without.groups[0]);
   CHECK(hostile.groups[0] == without.groups[0]);
+}
+
+TEST_CASE("a start waits a second for the disk of the checkpoint, and nothing is read behind it") {
+  const test::TemporaryFile folder("unused", "");
+  DaemonConfig config = test::drive_config();
+  config.checkpoint.path = folder.beside("checkpoint.yaml");
+  test::Collector first;
+  std::unique_ptr<Engine> engine;
+  EngineCounters* counters = nullptr;
+  config.navigator.alignment.initial_heading = parked_heading();
+  config.navigator.alignment.initial_heading_sigma = 0.02;
+  run_engine(config, parked_messages(), &first, &counters, &engine);
+  REQUIRE(load_checkpoint(config.checkpoint.path));
+
+  const auto disk = std::make_shared<test::HeldDisk>();
+  const auto has_read = std::make_shared<std::atomic<bool>>(false);
+  test::Collector outputs;
+  Engine late(config, &outputs);
+  late.start();
+  const Stopwatch watch;
+  begin_from_saved(config.checkpoint.path, &late, [disk, has_read] {
+    disk->wait();
+    has_read->store(true);
+  });
+  CHECK(watch.nanoseconds() < 2 * kNanosecondsPerSecond);
+  disk->answer();
+  while (!has_read->load()) test::wait_a_moment();
+  for (const Channel channel : {Channel::kCheckpoint, Channel::kEphemeris})
+    CHECK(late.counters().received[index_of(channel)].get() == 0);
+  CHECK(late.counters().checkpoints_ignored.get() == 1);
+
+  // With a disk that answers both files are inputs.
+  begin_from_saved(config.checkpoint.path, &late);
+  CHECK(late.counters().received[index_of(Channel::kCheckpoint)].get() == 1);
+  CHECK(late.counters().received[index_of(Channel::kEphemeris)].get() > 0);
+  CHECK(late.finish());
 }
 
 TEST_CASE("without checkpoint.path nothing is written") {

@@ -61,6 +61,17 @@ TEST_CASE("a configuration with errors changes nothing and says all of them") {
   CHECK(daemon.text().find("SIGTERM: finishing") != std::string::npos);  // the level is as it was
 }
 
+TEST_CASE("a configuration nested without end is refused by the thread that reads it again") {
+  if (!test::have_programs("leonavd")) return;
+  const test::TemporaryFile file("vehicle.yaml", "preset: phone_imu\n");
+  test::DaemonProgram daemon({"--config", file.path()});
+  REQUIRE(daemon.says("running; LCM memq://"));
+  write_file(file.path(), std::string(400'000, '['));
+  daemon.signal(SIGHUP);
+  CHECK(daemon.says("error: SIGHUP: the configuration has errors, nothing is changed: "));
+  CHECK(daemon.stop() == 0);
+}
+
 TEST_CASE("signals without end neither stop leonavd nor silence it") {
   if (!test::have_programs("leonavd")) return;
   test::DaemonProgram daemon({});

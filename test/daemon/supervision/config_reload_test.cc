@@ -4,13 +4,16 @@
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <fstream>
+#include <memory>
 #include <string>
 
 #include "daemon/config/load_config.h"
 #include "daemon/supervision/log_level.h"
 #include "journal/journal_rig.h"
 #include "support/catch.h"
+#include "support/held_disk.h"
 #include "support/temporary_file.h"
 
 namespace {
@@ -24,6 +27,19 @@ struct RunningDaemon {
   Journal journal{running};  // none is written
   ConfigReload reload{[this] { return load_config_text(file, "mine.yaml"); }, &running, &journal};
 };
+
+// Looks as `main` does, until what was asked for is done.
+void finish(ConfigReload* reload) {
+  CHECK(test::await([reload] {
+    reload->look();
+    return !reload->is_under_way();
+  }));
+}
+
+void reload_now(ConfigReload* reload) {
+  reload->ask();
+  finish(reload);
+}
 
 // The level is one for the whole process.
 class KeptLevel {
@@ -45,7 +61,7 @@ TEST_CASE("a reload puts the reloadable keys into effect and leaves the others")
   rig.file =
       "preset: car\nlog: {level: warning}\ngnss: {elevation_mask_deg: 7}\njournal: {kept_mb: "
       "2077}\n";
-  rig.reload.reload();
+  reload_now(&rig.reload);
   CHECK(spdlog::get_level() == spdlog::level::warn);
   CHECK(rig.running.log.level == LogLevel::kWarning);
   CHECK(rig.running.journal.kept_mb == 2077.0);
@@ -58,7 +74,7 @@ TEST_CASE("a reload of a configuration with errors changes nothing") {
   set_log_level(rig.running.log.level);
   const double kept_mb = rig.running.journal.kept_mb;
   rig.file = "preset: car\nlog: {level: info}\njournal: {kept_mb: 2077, piece_mb: no number}\n";
-  rig.reload.reload();
+  reload_now(&rig.reload);
   CHECK(spdlog::get_level() == spdlog::level::err);
   CHECK(rig.running.log.level == LogLevel::kError);
   CHECK(rig.running.journal.kept_mb == kept_mb);
@@ -86,16 +102,16 @@ TEST_CASE("a reload reads the key for commands again, and keeps the one before w
   };
   CHECK(takes(first));
   std::ofstream(file.path()) << second << "\n";
-  reload.reload();
+  reload_now(&reload);
   CHECK(takes(second));
   CHECK_FALSE(takes(first));
   std::ofstream(file.path()) << "short\n";
-  reload.reload();
+  reload_now(&reload);
   CHECK(takes(second));
   // With a configuration that is wrong the key stays, too.
   std::ofstream(file.path()) << first << "\n";
   rig.file += "journal: {piece_mb: no number}\n";
-  reload.reload();
+  reload_now(&reload);
   CHECK(takes(second));
 }
 
@@ -108,8 +124,50 @@ TEST_CASE("a reload's limits reach the journal that is being written") {
   ConfigReload reload([&] { return read; }, &running, &rig.journal);
   rig.sender.push_slowly(500);
   CHECK(rig.journal.counters().pieces.get() == 1);
-  reload.reload();
+  reload_now(&reload);
   rig.sender.push_slowly(500);
   CHECK(test::await([&] { return rig.journal.counters().pieces.get() > 3; }));
   CHECK(rig.journal.finish());
+}
+
+TEST_CASE("a disk that does not answer holds up no look, and what was asked meanwhile is done") {
+  const KeptLevel kept;
+  const auto disk = std::make_shared<test::HeldDisk>();
+  const auto readings = std::make_shared<std::atomic<int>>(0);
+  RunningDaemon rig;
+  const auto load = [disk, readings, file = rig.file] {
+    disk->wait();
+    const std::string kept_mb = std::to_string(2000 + ++*readings);
+    return load_config_text(file + "journal: {kept_mb: " + kept_mb + "}\n", "mine.yaml");
+  };
+  ConfigReload reload(load, &rig.running, &rig.journal);
+  const double before = rig.running.journal.kept_mb;
+  const Stopwatch watch;
+  reload.ask();
+  for (int i = 0; i < 3; ++i) reload.look();
+  reload.ask();
+  reload.ask();
+  CHECK(watch.nanoseconds() < kNanosecondsPerSecond);
+  CHECK(reload.is_under_way());
+  CHECK(rig.running.journal.kept_mb == before);
+  disk->answer();
+  finish(&reload);
+  CHECK(readings->load() == 2);  // the second is for all that were asked behind the first
+  CHECK(rig.running.journal.kept_mb == 2002.0);
+}
+
+TEST_CASE("a reload that is not over is left to itself at the end") {
+  const auto disk = std::make_shared<test::HeldDisk>();
+  RunningDaemon rig;
+  const Stopwatch watch;
+  {
+    const auto load = [disk, running = rig.running] {
+      disk->wait();
+      return running;
+    };
+    ConfigReload reload(load, &rig.running, &rig.journal);
+    reload.ask();
+  }
+  CHECK(watch.nanoseconds() < 3 * kNanosecondsPerSecond);
+  disk->answer();
 }

@@ -345,10 +345,53 @@ def reload_is_told(run, outputs, result):
 
 
 PIPE_BYTES = 4096
-# Each reload of a configuration with so long a mistake is a line as long: all together six times what the daemon keeps. Signals that
-# come while one waits are one to the system, so that a busy machine has fewer lines.
-RELOADS, MISTAKE_BYTES = 200, 2000
+# Each reload of a configuration with so long a mistake is a line as long: all together six times what the daemon keeps. It ends one a
+# second, and what is asked for meanwhile is one more.
+RELOADS, MISTAKE_BYTES = 200, 15_000
 GOOD = "preset: urban\n"
+
+
+def put_file(path, text):
+    """At once, so that no reader sees half of it."""
+    path.with_suffix(".new").write_text(text)
+    path.with_suffix(".new").replace(path)
+
+
+def write_config(run):
+    run.config = run.row.daemon["config"] = run.folder / "config.yaml"
+    run.pipe = run.folder / "ocean.blq"
+    run.pipe.unlink(missing_ok=True)
+    put_file(run.config, GOOD)
+
+
+def reload_from_pipe(run):
+    """A pipe that nobody writes to stands for the disk: reading stops in the system as it does there. A frozen file system would not do,
+    because it is read all the same."""
+    os.mkfifo(run.pipe)
+    put_file(run.config, f"{GOOD}gnss: {{ocean_loading_file: {run.pipe}}}\n")
+    reload(run)
+
+
+def answer_from_pipe(run):
+    """With a file that says nothing. The configuration is good again for the reload behind it."""
+    put_file(run.config, GOOD)
+    with open(run.pipe, "w", encoding="utf-8") as pipe:
+        pipe.write("$$\n")
+
+
+def reload_waits_alone(run, outputs, result):
+    """HEALTH once a second all the time; the log says that the disk does not answer, and then what became of both reloads."""
+    lines = list(said.lines_of(run.daemon.said(), run.begin_wall_s))
+
+    def told(pattern):
+        return next((t for t, line in lines if t >= run.row.begin_s and re.search(pattern, line)), math.inf)
+    result.at_most("leonavd says that the disk does not answer", told("SIGHUP: the disk .* does not answer") - run.row.begin_s, 5)
+    result.at_most("leonavd says what it has read", told("nothing is changed: .*ocean.blq") - run.row.end_s, 2.5)
+    result.must(told("nothing is changed: ") >= run.row.end_s, "the pipe did not hold the reload up")
+    result.at_most("the reload behind it", told("read again, nothing has changed") - run.row.end_s, 5)
+    gap = outputs.longest_health_gap(run.row.begin_s, run.row.end_s)
+    result.at_most("longest time without HEALTH while the disk does not answer", gap, 1.5)
+    run.notes.append(f"at most {gap:.2f} s between two HEALTH while the disk does not answer")
 
 
 class LogPipe:
@@ -390,18 +433,17 @@ class LogPipe:
 
 def open_log_pipe(run):
     run.log = LogPipe(run)
-    run.config = run.row.daemon["config"] = run.folder / "config.yaml"
-    run.config.write_text(GOOD)
+    write_config(run)
 
 
 def stall_log(run):
     run.log.reads.clear()
-    run.config.write_text(f"{GOOD}log: {{level: {'x' * MISTAKE_BYTES}}}\n")
+    put_file(run.config, f"{GOOD}log: {{level: {'x' * MISTAKE_BYTES}}}\n")
 
 
 def read_log_again(run):
     run.log.reads.set()
-    run.config.write_text(GOOD)
+    put_file(run.config, GOOD)
 
 
 def close_log_pipe(run):
@@ -477,6 +519,9 @@ ROWS = [
         actions=((59.5, measure_memory), *((60 + k / 10, flood) for k in range(FLOODS)), (81, measure_memory)), judge=flood_is_bounded,
         expected=fault("DEGRADED", reason="a tenth or more of an input is rejected", ok_s=20)),
     Row("reload", "SIGHUP", after_s=20, actions=((60, reload),), judge=reload_is_told, expected=Expected()),
+    Row("reload-stalled", "SIGHUP three times while a file of the configuration does not answer for 30 s", end_s=90, after_s=15,
+        before=write_config, actions=((60, reload_from_pipe), (65, reload), (70, reload), (90, answer_from_pipe)),
+        judge=reload_waits_alone, expected=Expected()),
     Row("log-stalled", "nobody reads the log for 30 s, and it gets more lines than the daemon keeps", end_s=90, after_s=15, before=open_log_pipe,
         actions=((60, stall_log), *((60 + k * 28 / RELOADS, reload) for k in range(RELOADS)), (90, read_log_again), (95, reload)),
         after=close_log_pipe,
