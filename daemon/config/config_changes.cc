@@ -9,9 +9,9 @@ namespace leonav {
 namespace {
 
 // No answer depends on these keys, so that a journal replays whenever they were changed.
-constexpr std::array<std::string_view, 6> kReloadable = {
-    "journal.flush_interval_s", "journal.piece_mb", "journal.piece_s",
-    "journal.total_mb",         "journal.kept_mb",  "log.level"};
+constexpr std::array<std::string_view, 7> kReloadable = {
+    "journal.outputs",  "journal.flush_interval_s", "journal.piece_mb", "journal.piece_s",
+    "journal.total_mb", "journal.kept_mb",          "log.level"};
 
 bool is_reloadable(const std::string& path) {
   return std::find(kReloadable.begin(), kReloadable.end(), path) != kReloadable.end();
@@ -43,6 +43,7 @@ std::vector<ConfigChange> changes_between(const ConfigOrigin& running, const Con
 }
 
 void take_reloadable(const DaemonConfig& read, DaemonConfig* running) {
+  running->journal.outputs = read.journal.outputs;
   running->journal.flush_interval_s = read.journal.flush_interval_s;
   running->journal.piece_mb = read.journal.piece_mb;
   running->journal.piece_s = read.journal.piece_s;

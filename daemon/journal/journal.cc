@@ -104,8 +104,11 @@ void Journal::open() {
 }
 
 void Journal::push(const MessageHeader& header, ByteSpan bytes) {
-  if (state_ == nullptr || !state_->selection.contains(header.channel, bytes)) return;
+  if (state_ == nullptr) return;
   State& state = *state_;
+  const RecordedOutputs wanted = state.writer.wanted_outputs();
+  if (wanted != state.selection.outputs()) select(wanted);
+  if (!state.selection.contains(header.channel, bytes)) return;
   const double fill = state.ring.fill();
   if (state.is_full && fill > kCrowded) return count_lost(header.channel);
   state.is_full = false;
@@ -118,6 +121,13 @@ void Journal::push(const MessageHeader& header, ByteSpan bytes) {
     state.is_full = true;
     count_lost(header.channel);
   }
+}
+
+// Where there is no room for the mark, the next message tries again.
+void Journal::select(RecordedOutputs outputs) {
+  const auto mark = static_cast<std::uint8_t>(outputs);
+  if (state_->ring.try_push(Channel::kPiece, 0, {&mark, 1}))
+    state_->selection = OutputSelection(outputs);
 }
 
 void Journal::count_lost(Channel channel) {

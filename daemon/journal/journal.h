@@ -9,6 +9,7 @@
 #include "daemon/journal/journal_counters.h"
 #include "daemon/journal/journal_limits.h"
 #include "daemon/threads/message_ring.h"
+#include "drivers/lcm/journal_marks.h"
 
 namespace leonav {
 
@@ -49,6 +50,8 @@ class Journal {
   // are to be kept (journal.kept_mb).
   void keep();
   // One thread, after open(): these limits hold from now on, for the piece that is written too.
+  // Other outputs begin a piece; a pipe or a device, which has no pieces, goes on with those of its
+  // start.
   void set_limits(const JournalLimits& limits);
 
   // Any thread, after open().
@@ -70,6 +73,7 @@ class Journal {
 
  private:
   struct State;
+  void select(RecordedOutputs outputs);
   void fail(const std::string& reason);
   std::string text_of(std::int64_t error) const;
   void count_lost(Channel channel);

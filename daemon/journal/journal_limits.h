@@ -9,11 +9,12 @@ namespace leonav {
 // The fields of JournalConfig of the same names.
 struct JournalLimits {
   double flush_interval_s = 0.0, piece_mb = 0.0, piece_s = 0.0, total_mb = 0.0, kept_mb = 0.0;
+  JournalOutputs outputs = JournalOutputs::kAll;
 };
 
 inline JournalLimits limits_of(const JournalConfig& config) {
-  return {config.flush_interval_s, config.piece_mb, config.piece_s, config.total_mb,
-          config.kept_mb};
+  return {config.flush_interval_s, config.piece_mb, config.piece_s,
+          config.total_mb,         config.kept_mb,  config.outputs};
 }
 
 inline std::int64_t bytes_of_megabytes(double megabytes) {

@@ -27,8 +27,8 @@ CommandLine::CommandLine()
           "SIGTERM and SIGINT end it cleanly, with the journal complete; a second one at once.\n"
           "SIGHUP reads the configuration again: the log says of each changed key whether it is "
           "in effect\n"
-          "(journal.flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; log.level) or needs a "
-          "restart.\n"
+          "(journal.outputs, flush_interval_s, piece_mb, piece_s, total_mb, kept_mb; log.level) or "
+          "needs a restart.\n"
           "The key for commands (commands.key_file) is read again too.\n"
           "Exit codes: 0 stopped cleanly, 1 failure while running, 2 command line, 3 "
           "configuration, 4 LCM, 5 journal.") {

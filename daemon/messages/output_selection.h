@@ -14,6 +14,7 @@ class OutputSelection {
 
   // To be called for each message, in the order of publication.
   bool contains(Channel channel, ByteSpan bytes);
+  RecordedOutputs outputs() const { return outputs_; }
 
  private:
   RecordedOutputs outputs_;

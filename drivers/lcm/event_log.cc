@@ -89,7 +89,7 @@ void EventFileReader::damaged_at(std::int64_t position, const std::string& what)
 EventLogReader::EventLogReader(const std::string& path) {
   LogFiles files = journal_pieces(path);
   paths_ = std::move(files.paths);
-  first_piece_ = files.first_piece;
+  first_piece_ = piece_ = files.first_piece;
   for (const std::string& one : paths_) size_ = sum_of_sizes(size_, size_of(one));
   open_next_file();
 }
@@ -119,6 +119,7 @@ void EventLogReader::check_number(const LogEvent& event) {
   if (!is(Channel::kPiece) || !piece) return;
   numbers_.copied = numbers_.next;
   numbers_.next = piece->first;
+  piece_ = piece;
 }
 
 bool EventLogReader::next(LogEvent* event) {

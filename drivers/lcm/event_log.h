@@ -86,6 +86,9 @@ class EventLogReader {
   std::int64_t missing() const { return missing_; }
   // The first of the pieces; nullopt: the log has none.
   const std::optional<PieceInfo>& first_piece() const { return first_piece_; }
+  // The piece of the last event read, and at the beginning the first one; nullopt: the log has
+  // none.
+  const std::optional<PieceInfo>& piece() const { return piece_; }
   // Of all files.
   std::int64_t size_bytes() const { return size_; }
   std::int64_t position_bytes() const { return passed_ + file_->position_bytes(); }
@@ -100,7 +103,7 @@ class EventLogReader {
   void check_number(const LogEvent& event);
 
   std::vector<std::string> paths_;
-  std::optional<PieceInfo> first_piece_;
+  std::optional<PieceInfo> first_piece_, piece_;
   std::size_t opened_ = 0;  // of paths_
   std::unique_ptr<EventFileReader> file_;
   Numbers numbers_;

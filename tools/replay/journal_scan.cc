@@ -78,7 +78,6 @@ JournalScan scan_journal(const std::string& path, const std::string& prefix) {
   LogEvent event;
   std::optional<OutputSchema> schema;
   if (const auto& piece = log.first_piece()) {
-    scan.outputs = piece->outputs;
     scan.first_piece = piece->number;
   }
   for (std::int64_t before = 0; log.next(&event); ++before) {

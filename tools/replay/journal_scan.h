@@ -22,7 +22,6 @@ struct JournalScan {
   // Results of the smoother with their iterations; the last epochs have no decision yet.
   std::vector<Decision> delivered;
   OutputSchema output_schema = OutputSchema::kNewest;  // of the first output that has one
-  RecordedOutputs outputs = RecordedOutputs::kAll;     // that the journal was to hold
   // Messages that the disk did not take in time, over the whole journal.
   LostMessages lost;
   std::int64_t first_piece = 1;  // number of the piece that the log begins with

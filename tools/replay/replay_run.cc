@@ -20,7 +20,7 @@ ReplayRun::ReplayRun(const DaemonConfig& config, const Options& options, const J
       encoder_(this, scan.output_schema),
       navigator_(config.navigator, this),
       dispatch_(&navigator_.sequencer()) {
-  if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_, scan_);
+  if (options.verify) verifier_ = std::make_unique<Verifier>(options.log, prefix_);
   for (const Decision& delivered : scan_.delivered) navigator_.record(delivered);
   for (const Decision& decision : scan_.decisions) navigator_.record(decision);
 }

@@ -9,7 +9,6 @@
 #include "daemon/messages/output_groups.h"
 #include "daemon/messages/output_selection.h"
 #include "drivers/lcm/event_log.h"
-#include "tools/replay/journal_scan.h"
 
 namespace leonav {
 
@@ -17,10 +16,10 @@ namespace leonav {
 // for runs of any length.
 class Verifier {
  public:
-  // `scan`: of the journal. Outputs that it was not to hold are passed over, and so are as many
+  // Outputs that a piece of the journal was not to hold are passed over, and so are as many
   // SOLUTION as a mark LOST says were left out before it; nothing is compared behind the first
   // place where something is missing that a replay needs.
-  Verifier(const std::string& journal, const std::string& prefix, const JournalScan& scan);
+  Verifier(const std::string& journal, const std::string& prefix);
 
   // Compares the next output of a group, which `channel` belongs to, with the journal.
   void compare(Channel channel, std::size_t group, ByteSpan regenerated);
@@ -43,10 +42,15 @@ class Verifier {
     std::unique_ptr<EventLogReader> log;
     std::uint64_t count = 0;
     bool ended = false;
-    LogEvent event;              // the next one, where `waits`
-    bool waits = false;          // read, and not compared as yet
-    std::uint64_t left_out = 0;  // before the next one, as marks say
+    LogEvent event;                                    // the next one, where `waits`
+    bool waits = false;                                // read, and not compared as yet
+    std::uint64_t left_out = 0;                        // before the next one, as marks say
+    OutputSelection selection{RecordedOutputs::kAll};  // of the piece that it is in
+    bool changes = false;  // a piece with other outputs begins before the next one
   };
+  // Whether an output is to be compared with the next recorded one of its group.
+  bool is_recorded(Channel channel, std::size_t group, ByteSpan regenerated);
+  bool begins_again(Group* state, ByteSpan regenerated);
   bool was_left_out(std::size_t group);
   // Reads the next recorded message of the group, unless one waits; false if there is none.
   bool next_recorded(std::size_t group);
@@ -54,7 +58,6 @@ class Verifier {
 
   std::string prefix_;
   std::array<Group, kOutputGroups.size()> groups_;
-  OutputSelection selection_;
   std::uint64_t compared_ = 0, differences_ = 0, beyond_end_ = 0, unrecorded_ = 0;
   std::string first_difference_;
 };

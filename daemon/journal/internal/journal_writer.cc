@@ -6,6 +6,7 @@
 
 #include "core/navigator/interface/event.h"
 #include "daemon/config/effective_config.h"
+#include "daemon/journal/internal/recorded_outputs.h"
 #include "daemon/threads/wall_clock.h"
 #include "drivers/lcm/event_header.h"
 #include "drivers/lcm/run_configuration.h"
@@ -51,7 +52,8 @@ JournalWriter::JournalWriter(const DaemonConfig& config, JournalCounters* counte
       pieces_(config.journal, &disk_, counters, kept),
       beginning_(configuration_.size() + 4096),
       buffer_(kBufferBytes),
-      next_number_(configuration_.empty() ? 1 : 2) {
+      next_number_(configuration_.empty() ? 1 : 2),
+      wanted_outputs_(recorded_outputs(config.journal.outputs)) {
   for (std::size_t i = 0; i < kChannelCount; ++i) {
     channel_names_.push_back(channel_name(static_cast<Channel>(i), config.lcm.prefix));
   }
@@ -61,8 +63,11 @@ void JournalWriter::write_from(MessageRing* ring) {
   if (new_limits_.take(&limits_)) pieces_.set_limits(limits_);
   is_crowded_ = ring->waiting() > kCrowdedRing;
   if (!is_ready(false)) return;
+  if (pieces_.has_pieces())
+    wanted_outputs_.store(recorded_outputs(limits_.outputs), std::memory_order_relaxed);
   const auto take = [this](const MessageHeader& header, ByteSpan bytes) { append(header, bytes); };
   for (;;) {
+    if (!change_outputs()) return;
     if (!buffer_.has_room(kMostEventBytes) && !flush()) return;
     if (!ring->consume_one(take)) break;
     if (!is_piece_full()) continue;
@@ -97,6 +102,7 @@ bool JournalWriter::write_all_of(MessageRing* ring) {
   if (!is_ready(true)) return false;
   const auto take = [this](const MessageHeader& header, ByteSpan bytes) { append(header, bytes); };
   for (;;) {
+    if (!change_outputs()) return false;
     if (!buffer_.has_room(kMostEventBytes) && !flush()) return false;
     if (!ring->consume_one(take)) return flush();
   }
@@ -153,16 +159,33 @@ bool JournalWriter::write_beginning() {
   return true;
 }
 
-// The piece is complete.
-void JournalWriter::end_piece() {
-  if (!flush()) return;
-  apply_keep();
-  sync();
-  pieces_.end(true);
+// The piece is complete. False: it fails, and what it lacks goes to another one like it.
+bool JournalWriter::end_piece() {
+  if (!flush()) return false;
+  if (size_ > beginning_bytes_) {
+    apply_keep();
+    sync();
+    pieces_.end(true);
+  } else {
+    pieces_.discard();
+  }
   begun_ = false;
+  return true;
+}
+
+// Begins a piece where others are to be written from now on. False: what waits has to wait on.
+bool JournalWriter::change_outputs() {
+  if (!next_outputs_) return true;
+  if (!end_piece()) return false;
+  pieces_.set_outputs(*std::exchange(next_outputs_, std::nullopt));
+  return begin_piece();
 }
 
 void JournalWriter::append(const MessageHeader& header, ByteSpan bytes) {
+  if (header.channel == Channel::kPiece) {
+    next_outputs_ = static_cast<RecordedOutputs>(bytes[0]);
+    return;
+  }
   buffer_.append(next_number_++, header.timestamp_us, channel_name_of(header.channel), bytes);
   if (is_fault(header.channel, bytes)) keep();
 }

@@ -1,6 +1,7 @@
 // The JournalWriter writes messages to the pieces of a journal, whatever the disk does meanwhile.
 #pragma once
 #include <atomic>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,9 @@ class JournalWriter {
   void keep() { keep_requested_.store(true, std::memory_order_relaxed); }
   // Sets, in one other thread, the limits that hold from the next write_from() on.
   void set_limits(const JournalLimits& limits) { new_limits_.set(limits); }
+  // Any thread: the outputs that the journal is to hold. Who pushes puts a message PIECE of one
+  // byte, these outputs, before the first that is selected by them; a piece begins there.
+  RecordedOutputs wanted_outputs() const { return wanted_outputs_.load(std::memory_order_relaxed); }
 
  private:
   bool write_all_of(MessageRing* ring);
@@ -41,7 +45,8 @@ class JournalWriter {
   bool is_ready(bool at_once);
   bool begin_piece();
   bool write_beginning();
-  void end_piece();
+  bool end_piece();
+  bool change_outputs();
   void append(const MessageHeader& header, ByteSpan bytes);
   bool flush();
   bool write_through(std::span<const std::uint8_t> bytes);
@@ -70,8 +75,10 @@ class JournalWriter {
   Stopwatch since_flush_, since_begin_, since_sync_;
   std::int64_t failed_at_ns_ = 0, retry_after_ns_ = 0;  // retry_after_ns_ 0: nothing has failed
   std::atomic<bool> keep_requested_{false};
-  bool is_crowded_ = false;  // much waits in the ring
-  bool made_room_ = false;   // the last failure has deleted a piece
+  std::atomic<RecordedOutputs> wanted_outputs_;
+  std::optional<RecordedOutputs> next_outputs_;  // of the piece that is to begin now
+  bool is_crowded_ = false;                      // much waits in the ring
+  bool made_room_ = false;                       // the last failure has deleted a piece
 };
 
 }  // namespace leonav

@@ -40,6 +40,8 @@ class PieceSequence {
 
   // These hold from now on.
   void set_limits(const JournalLimits& limits);
+  // Between two pieces: the next one says that it holds these.
+  void set_outputs(RecordedOutputs outputs) { info_.outputs = outputs; }
 
   JournalFile& file() { return file_; }
   // Of the piece that is open, without its first event.

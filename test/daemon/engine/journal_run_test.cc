@@ -2,7 +2,9 @@
 // counted junk replay to the same bytes.
 #include <condition_variable>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -11,6 +13,7 @@
 #include "daemon/engine/engine.h"
 #include "daemon/health/health_monitor.h"
 #include "daemon/health/thread_monitor.h"
+#include "drivers/lcm/event_header.h"
 #include "drivers/lcm/event_log.h"
 #include "drivers/lcm/run_configuration.h"
 #include "engine_runs.h"
@@ -77,6 +80,30 @@ std::vector<std::size_t> places(const std::vector<LogEvent>& events, Channel cha
   for (std::size_t i = 0; i < events.size(); ++i)
     if (channel_from_name(events[i].channel) == channel) list.push_back(i);
   return list;
+}
+
+// The numbers of the events of a channel in one file of a journal.
+std::vector<std::int64_t> numbers_of(const std::string& file, Channel channel) {
+  std::vector<std::int64_t> numbers;
+  EventFileReader log(file);
+  for (LogEvent event; log.next(&event);)
+    if (channel_from_name(event.channel) == channel) numbers.push_back(event.number);
+  return numbers;
+}
+
+// Puts a HEALTH, which is not compared, into the place of an event.
+void take_out(const std::string& file, std::int64_t number) {
+  std::string bytes;
+  EventFileReader log(file);
+  for (LogEvent event; log.next(&event);) {
+    if (event.number == number) event.channel = channel_name(Channel::kHealth);
+    const EventHeaderBytes header = encode_event_header(
+        {event.number, event.timestamp_us, static_cast<std::uint32_t>(event.channel.size()),
+         static_cast<std::uint32_t>(event.data.size())});
+    bytes.append(header.begin(), header.end()).append(event.channel);
+    bytes.append(event.data.begin(), event.data.end());
+  }
+  std::ofstream(file, std::ios::binary) << bytes;
 }
 
 auto at(std::vector<LogEvent>* events, std::size_t place) {
@@ -215,6 +242,71 @@ TEST_CASE("pieces replay byte for byte as one journal, with any of journal.outpu
     CHECK(broken.exit_code == 0);
     CHECK(has(broken.out, " 0 differences"));
     CHECK(has(broken.err, " messages are missing with pieces that are gone"));
+  }
+}
+
+TEST_CASE("journal.outputs changes while it runs: each piece is compared by its own value") {
+  if (!test::have_programs("leonav-replay")) return;
+  const test::TemporaryFile folder("unused", "");
+  const std::string path = folder.beside("run.journal");
+  DaemonConfig config = journaled(path);
+  const std::map<int, JournalOutputs> changes = {
+      {7, JournalOutputs::kNone}, {14, JournalOutputs::kThinned}, {21, JournalOutputs::kAll}};
+  Collector published;
+  {
+    Engine engine(config, &published);
+    engine.start();
+    const Gauge& pieces = engine.journal().counters().pieces;
+    int epoch = 0;
+    feed(&engine, 30.0, [&] {
+      const auto change = changes.find(++epoch);
+      if (change == changes.end()) return;
+      config.journal.outputs = change->second;
+      engine.journal().set_limits(limits_of(config.journal));
+      // With the next message.
+      const std::int64_t before = pieces.get();
+      for (int i = 0; i < 10'000 && pieces.get() == before; ++i) {
+        engine.publish(Channel::kHealth, Bytes(8));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    });
+    REQUIRE(engine.finish());
+    REQUIRE(pieces.get() == 4);
+  }
+  const std::vector<std::string> files = {path, path + ".part0002", path + ".part0003",
+                                          path + ".part0004"};
+  const std::vector<RecordedOutputs> outputs = {RecordedOutputs::kAll, RecordedOutputs::kNone,
+                                                RecordedOutputs::kThinned, RecordedOutputs::kAll};
+  for (std::size_t i = 0; i < files.size(); ++i)
+    CHECK(EventLogReader(files[i]).first_piece().value().outputs == outputs[i]);
+  CHECK(numbers_of(files[1], Channel::kSolution).empty());
+  CHECK(numbers_of(files[2], Channel::kSolution).size() <= 8);
+  CHECK(numbers_of(files[3], Channel::kSolution).size() > 1000);
+  const auto run = replay(folder, path);
+  INFO(run.out << run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(has(run.out, " 0 differences"));
+  CHECK(has(run.out, "not in the journal, and so not compared: "));
+  CHECK(has(run.out, "output SOLUTION: " + std::to_string(published.groups[0].size())));
+
+  // What a piece should have and has not is told, in each.
+  for (const auto& [file, channel] :
+       std::vector<std::pair<std::string, Channel>>{{files[0], Channel::kSolution},
+                                                    {files[1], Channel::kDecision},
+                                                    {files[2], Channel::kSolution},
+                                                    {files[2], Channel::kEpoch},
+                                                    {files[3], Channel::kSolution},
+                                                    {files[3], Channel::kEpoch}}) {
+    const std::vector<std::int64_t> numbers = numbers_of(file, channel);
+    REQUIRE(numbers.size() >= 4);
+    const std::string kept = folder.beside("kept");
+    std::filesystem::copy_file(file, kept, std::filesystem::copy_options::overwrite_existing);
+    take_out(file, numbers[numbers.size() / 2]);
+    const auto lacks = replay(folder, path);
+    INFO(file << " " << name_of(channel) << "\n" << lacks.out << lacks.err);
+    CHECK(lacks.exit_code == 1);
+    CHECK_FALSE(has(lacks.out, " 0 differences"));
+    std::filesystem::rename(kept, file);
   }
 }
 
