@@ -14,9 +14,12 @@ namespace {
 
 constexpr std::int64_t kDay = 86'400 * kSecond;
 
-// How long the Sequencer may need, from its rules: an accepted stamp lies so far ahead.
+// How long the Sequencer may need, from its rules: an accepted epoch lies so far ahead of the IMU's
+// stamps, to which the configured offset is added. Then one epoch may be late, by which the wait
+// for the others becomes long enough, and two come.
 int recovery_seconds(const NavigatorConfig& config) {
-  return static_cast<int>(std::ceil(std::max(10.0, 3.0 * config.realtime.epoch_interval_s))) + 3;
+  const double ahead_s = std::max(10.0, 3.0 * config.realtime.epoch_interval_s);
+  return static_cast<int>(std::ceil(ahead_s + std::max(config.imu_time_offset_s, 0.0))) + 3;
 }
 
 }  // namespace
