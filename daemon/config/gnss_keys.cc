@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "core/base/angle.h"
@@ -115,11 +116,11 @@ void read_leo_bands(ConfigReader& group, const char* key, BandPlan* bands) {
       bands->set_leo(band, hz);
       for (char other = BandPlan::kFirstBand; hz > 0.0 && other < band; ++other) {
         if (bands->frequency_hz(System::kLeo, other) != hz) continue;
-        // Appended, because gcc 12 reports a false error in a sum of these.
-        std::string why = "is also the carrier of band ";
-        why += other;
-        why += "; give it to one band and ~ to the other";
-        reader.report(names[i].c_str(), why);
+        std::array<char, 96> why{};  // gcc 12 reports a false error in a sum of texts here
+        std::snprintf(why.data(), why.size(),
+                      "is also the carrier of band %c; give it to one band and ~ to the other",
+                      other);
+        reader.report(names[i].c_str(), why.data());
       }
     }
   });
