@@ -95,7 +95,9 @@ GpsTime CsvRows::time(int week_column, int tow_column) {
     mark_bad("time of week '" + shown(text(tow_column)) + "' is not in 0 to 604800 s");
     return {};
   }
-  return GpsTime::from_week_and_tow(*week, *tow);
+  const GpsTime time = GpsTime::from_week_and_tow(*week, *tow);
+  if (!time.is_set()) mark_bad("week 0 and time of week 0 mean that there is no time");
+  return time;
 }
 
 void CsvRows::mark_bad(const std::string& why) {

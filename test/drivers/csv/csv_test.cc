@@ -164,6 +164,15 @@ TEST_CASE("truth.csv: columns by name, empty ones unknown, more allowed", "[csv]
                     Contains("latitude_deg") && Contains(kTruthHeader));
 }
 
+TEST_CASE("a row of week 0 and time of week 0 has no time", "[csv]") {
+  const std::string rows = "0,0,48,11,500\n0,-0.0,48,11,500\n2200,1,48,11,500\n";
+  const TruthCsv truth = read_truth_csv(
+      write("truth_zero", "gps_week,gps_tow_s,latitude_deg,longitude_deg,height_m\n" + rows));
+  CHECK(truth.points.size() == 1);
+  CHECK(truth.report.skipped == 2);
+  CHECK_THAT(truth.report.problems.front(), Contains("there is no time"));
+}
+
 TEST_CASE("solution.csv: written and read again", "[csv]") {
   Solution solution;
   solution.time = GpsTime::from_week_and_tow(2381, 408'640.965);
