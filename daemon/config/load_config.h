@@ -19,8 +19,8 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What else has to be right for a certain use: throws ConfigError where it is not, which is told
-// with all other errors. A key that cannot be used has its default meanwhile.
+// Judges what a certain use of a configuration needs beyond good keys. It throws ConfigError, whose
+// text joins the other errors. It sees the default of each key whose value cannot be used.
 using ConfigCheck = std::function<void(const DaemonConfig&)>;
 
 // A key that is unknown, repeated, of the wrong type or out of range throws ConfigError. Each

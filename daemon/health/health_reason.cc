@@ -33,7 +33,7 @@ constexpr std::array<HealthReasonEntry, kHealthReasonCount> kEntries = {{
     {kInputRejected, kDegraded, "a tenth or more of an input is rejected",
      "look at its sender and the events rejected_input", kLooks_s},
     {kInputLost, kDegraded, "inputs lost before they got here",
-     "raise lcm.receive_queue and the receive buffer in lcm.url, or look at the sender", kLooks_s},
+     "raise recv_buf_size in lcm.url, or look at the sender", kLooks_s},
     {kImuGaps, kDegraded, "the IMU stream has gaps", "find out why its sender loses samples",
      kLooks_s},
     {kConvention, kDegraded, "", "", kAtOnce_s},

@@ -25,7 +25,7 @@ class CommandLine {
   bool asks_for_run(int argc, char** argv);
 
   // The configuration with everything the command line changes in it, so that a journal holds it
-  // all. Throws UsageError, and ConfigError, which tells of the key for commands too.
+  // all. Throws UsageError; ConfigError, also where the file of the key for commands is wrong.
   RunConfiguration load() const;
   // The configuration while the daemon runs: from a file only, because a pipe could hold it up.
   DaemonConfig load_again() const;

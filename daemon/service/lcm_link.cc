@@ -8,26 +8,15 @@
 #include "daemon/link/message_limit.h"
 #include "daemon/threads/process_threads.h"
 #include "daemon/threads/wall_clock.h"
+#include "drivers/lcm/message_sizes.h"
 #include "drivers/lcm/wire.h"
 
 namespace leonav {
 namespace {
 
-// Messages of a channel that wait for `io` take no more memory than this, whatever is sent.
-constexpr std::uint32_t kQueueBytes = 4 * 1024 * 1024;
-
-std::uint32_t most_bytes(Channel channel) {
-  switch (channel) {
-    case Channel::kImu:
-    case Channel::kEphemeris:
-    case Channel::kIonosphere:
-    case Channel::kCommand:
-    case Channel::kOdometer:
-      return wire::kMaxBytesWithoutList;
-    default:
-      return wire::kMaxMessageBytes;
-  }
-}
+// Messages of a channel that wait for `io` take no more memory than this, whatever is sent. At the
+// start a sender may send all orbits, or all antenna models, at once.
+constexpr std::uint32_t kQueueBytes = 16 * 1024 * 1024;
 
 ByteSpan bytes_of(const lcm_recv_buf_t* buffer) {
   return {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size};
@@ -42,7 +31,7 @@ LcmReceiver::LcmReceiver(const LcmConfig& config, const ThreadConfig& io, Engine
   std::vector<Input> inputs;
   for (const Channel channel : kInputChannels)
     if (channel != Channel::kCheckpoint)
-      inputs.push_back({prefix_ + std::string(name_of(channel)), most_bytes(channel), &on_message});
+      inputs.push_back({channel_name(channel, prefix_), most_message_bytes(channel), &on_message});
   if (gate_) {
     inputs.push_back({prefix_ + std::string(kSignedCommandChannel), wire::kMaxBytesWithoutList,
                       &on_signed_command});

@@ -11,7 +11,7 @@
 namespace leonav {
 namespace {
 
-constexpr double kStalled_s = 2.0;  // a reading that takes longer is told
+constexpr double kStalled_s = 2.0;  // a warning says that reading takes longer
 
 void tell(const ConfigChange& change) {
   spdlog::log(change.is_reloadable ? spdlog::level::info : spdlog::level::warn, "{}: {} -> {}: {}",

@@ -28,7 +28,7 @@ void HealthLog::look(HealthMonitor* health, const std::string& stalled_threads, 
   if (suspicions_.look(health->suspicions()))
     spdlog::warn("not as it should be: {}", health->suspicions());
   if (stands_still_.look(stands_still) && stands_still)
-    spdlog::error("no answer for a minute, though inputs come");
+    spdlog::error("the answer stands still, though inputs come");
   if (stalled_threads_.look(stalled_threads) && !stalled_threads.empty())
     spdlog::error("thread hangs: {}", stalled_threads);
 }

@@ -23,19 +23,21 @@ std::set<pid_t> threads_of_process() {
 }
 
 std::string schedule(pid_t thread, const std::string& name, const ThreadConfig& config) {
+  std::string refused;
   if (config.cpu >= 0) {
     cpu_set_t cpus;
     CPU_ZERO(&cpus);
     if (config.cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(config.cpu), &cpus);
     if (sched_setaffinity(thread, sizeof cpus, &cpus) != 0)
-      return "thread " + name + ": not pinned to processor " + std::to_string(config.cpu) + ": " +
-             std::strerror(errno);
+      refused = "thread " + name + ": not pinned to processor " + std::to_string(config.cpu) +
+                ": " + std::strerror(errno);
   }
-  if (config.priority <= 0) return "";
+  if (config.priority <= 0) return refused;
   sched_param parameters{};
   parameters.sched_priority = config.priority;
-  if (sched_setscheduler(thread, SCHED_FIFO, &parameters) == 0) return "";
-  return "thread " + name + ": no SCHED_FIFO priority: " + std::strerror(errno);
+  if (sched_setscheduler(thread, SCHED_FIFO, &parameters) == 0) return refused;
+  return refused + (refused.empty() ? "" : "; ") + "thread " + name +
+         ": no SCHED_FIFO priority: " + std::strerror(errno);
 }
 
 }  // namespace leonav

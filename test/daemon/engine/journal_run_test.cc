@@ -289,7 +289,7 @@ TEST_CASE("journal.outputs changes while it runs: each piece is compared by its 
   CHECK(has(run.out, "not in the journal, and so not compared: "));
   CHECK(has(run.out, "output SOLUTION: " + std::to_string(published.groups[0].size())));
 
-  // What a piece should have and has not is told, in each.
+  // In each piece a missing output is a difference if that piece was to hold it.
   for (const auto& [file, channel] :
        std::vector<std::pair<std::string, Channel>>{{files[0], Channel::kSolution},
                                                     {files[1], Channel::kDecision},

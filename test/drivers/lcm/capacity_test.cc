@@ -1,18 +1,24 @@
 // The longest messages that core/base/capacity.h allows fit into the buffers and come back whole.
+#include <leonav/antenna_t.hpp>
+#include <leonav/biases_t.hpp>
 #include <leonav/command_t.hpp>
 #include <leonav/constraints_t.hpp>
+#include <leonav/corrected_states_t.hpp>
 #include <leonav/ephemeris_t.hpp>
 #include <leonav/epoch_t.hpp>
+#include <leonav/gnss_epoch_t.hpp>
 #include <leonav/imu_t.hpp>
 #include <leonav/ionosphere_t.hpp>
 #include <leonav/leo_ephemeris_t.hpp>
 #include <leonav/odometer_t.hpp>
+#include <leonav/orbit_clock_t.hpp>
 #include <leonav/signed_command_t.hpp>
 #include <memory>
 #include <vector>
 
 #include "drivers/lcm/decode.h"
 #include "drivers/lcm/encode.h"
+#include "drivers/lcm/message_sizes.h"
 #include "drivers/lcm/wire.h"
 #include "support/catch.h"
 
@@ -110,4 +116,31 @@ TEST_CASE("messages without a list are short") {
       odometer_t().getEncodedSize(),      command_t().getEncodedSize(),
       signed_command_t().getEncodedSize()};
   for (const int bytes : sizes) CHECK(bytes <= static_cast<int>(wire::kMaxBytesWithoutList));
+}
+
+TEST_CASE("messages with lists at full capacity are no longer than their channel allows") {
+  const auto check = [](Channel channel, int bytes) {
+    CHECK(bytes > 0);
+    CHECK(bytes <= static_cast<int>(most_message_bytes(channel)));
+  };
+  antenna_t antenna;
+  antenna.n = static_cast<int>(kMaxAntennaValues);
+  antenna.values_m.resize(kMaxAntennaValues);
+  check(Channel::kAntenna, antenna.getEncodedSize());
+  orbit_clock_t orbits;
+  orbits.n = static_cast<int>(kMaxEphemerisSatellites);
+  orbits.states.resize(kMaxEphemerisSatellites);
+  check(Channel::kOrbitClock, orbits.getEncodedSize());
+  corrected_states_t corrected;
+  corrected.n = static_cast<int>(kMaxCorrectedStates);
+  corrected.states.resize(kMaxCorrectedStates);
+  check(Channel::kCorrectedStates, corrected.getEncodedSize());
+  gnss_epoch_t epoch;
+  epoch.n = static_cast<int>(kMaxObservations);
+  epoch.observations.resize(kMaxObservations);
+  check(Channel::kGnssEpoch, epoch.getEncodedSize());
+  biases_t biases;
+  biases.n = static_cast<int>(kMaxBiases);
+  biases.biases.resize(kMaxBiases);
+  check(Channel::kBiases, biases.getEncodedSize());
 }
