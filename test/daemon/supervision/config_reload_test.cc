@@ -147,7 +147,7 @@ TEST_CASE("a disk that does not answer holds up no look, and what was asked mean
   for (int i = 0; i < 3; ++i) reload.look();
   reload.ask();
   reload.ask();
-  CHECK(watch.nanoseconds() < kNanosecondsPerSecond);
+  CHECK(watch.nanoseconds() < 10 * kNanosecondsPerSecond);  // and not until the disk answers
   CHECK(reload.is_under_way());
   CHECK(rig.running.journal.kept_mb == before);
   disk->answer();
@@ -168,6 +168,6 @@ TEST_CASE("a reload that is not over is left to itself at the end") {
     ConfigReload reload(load, &rig.running, &rig.journal);
     reload.ask();
   }
-  CHECK(watch.nanoseconds() < 3 * kNanosecondsPerSecond);
+  CHECK(watch.nanoseconds() < 10 * kNanosecondsPerSecond);  // and not until the disk answers
   disk->answer();
 }
