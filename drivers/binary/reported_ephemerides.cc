@@ -1,5 +1,7 @@
 #include "drivers/binary/reported_ephemerides.h"
 
+#include <array>
+
 namespace leonav {
 namespace {
 
@@ -37,9 +39,10 @@ bool say_the_same(const Ephemeris& a, const Ephemeris& b) {
 }  // namespace
 
 bool ReportedEphemerides::is_new(const Ephemeris& ephemeris) {
-  Ephemeris& last = last_[static_cast<std::size_t>(ephemeris.message)][ephemeris.satellite.number];
-  if (last.toe.is_set() && say_the_same(last, ephemeris)) return false;
-  last = ephemeris;
+  const auto [last, is_first] =
+      last_.try_emplace({ephemeris.message, ephemeris.satellite}, ephemeris);
+  if (!is_first && say_the_same(last->second, ephemeris)) return false;
+  last->second = ephemeris;
   return true;
 }
 

@@ -1,7 +1,6 @@
 // The NavigationCollector makes ephemerides of the subframes of all satellites, whatever format a
 // receiver hands them out in.
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -68,11 +67,12 @@ class NavigationCollector {
   bool is_new_issue(const Ephemeris& ephemeris);
 
   NavigationCounters counters_;
-  std::array<GpsLnav, kSatellites> gps_lnav_;
-  std::array<GalileoInav, kSatellites> galileo_inav_;
-  std::array<GalileoFnav, kSatellites> galileo_fnav_;
-  std::array<BeidouD1, kSatellites> beidou_d1_;
-  std::array<BeidouD2, kSatellites> beidou_d2_;
+  // By the satellite's number, made when its first subframe comes.
+  std::map<std::size_t, GpsLnav> gps_lnav_;
+  std::map<std::size_t, GalileoInav> galileo_inav_;
+  std::map<std::size_t, GalileoFnav> galileo_fnav_;
+  std::map<std::size_t, BeidouD1> beidou_d1_;
+  std::map<std::size_t, BeidouD2> beidou_d2_;
   ReportedEphemerides reported_;
   // Of each satellite's signal the delay given last, and when.
   std::map<std::pair<SatelliteId, SignalCode>, std::pair<double, GpsTime>> reported_delays_;

@@ -40,20 +40,13 @@ void MsmObservations::add(const MsmMessage& message, GpsTime time,
 
 // No lock is as old as what is remembered.
 void MsmObservations::interrupt_carriers() {
-  for (auto& system : states_) {
-    for (auto& satellite : system) {
-      for (SignalState& state : satellite) {
-        state.lock.least_lock_ms = std::numeric_limits<std::int64_t>::max();
-      }
-    }
-  }
+  first_lock_.least_lock_ms = std::numeric_limits<std::int64_t>::max();
+  for (auto& [signal, state] : states_) state.lock.least_lock_ms = first_lock_.least_lock_ms;
 }
 
-MsmObservations::SignalState& MsmObservations::state_of(const MsmMessage& message,
-                                                        const MsmCell& cell) {
-  const System system = *message.header.type.system;
-  const std::size_t index = system == System::kGps ? 0 : system == System::kGalileo ? 1 : 2;
-  return states_[index][message.satellites[cell.satellite].number][cell.signal];
+MsmObservations::SignalState& MsmObservations::state_of(SatelliteId satellite, std::size_t signal) {
+  return states_.try_emplace({satellite, signal}, SignalState{GpsTime(), first_lock_})
+      .first->second;
 }
 
 double MsmObservations::checked(double value, double low, double high) {
@@ -77,7 +70,7 @@ bool MsmObservations::decode(const MsmMessage& message, const MsmCell& cell, Gps
     return false;
   }
   observation->code = *code;
-  SignalState& state = state_of(message, cell);
+  SignalState& state = state_of(observation->satellite, cell.signal);
   if (state.seen == time) {
     ++counters_.duplicates;
     return false;

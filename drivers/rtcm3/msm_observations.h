@@ -1,8 +1,10 @@
 // This unit turns multiple signal messages into observations and keeps the lock state of every
 // signal. Source: RTCM 10403.3, 3.5.16.
 #pragma once
-#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/gnss/signals/observation.h"
@@ -40,17 +42,17 @@ class MsmObservations {
     GpsTime seen;  // last epoch with this signal, with or without a carrier
     MsmLock lock;
   };
-  static constexpr std::size_t kSystems = 3;
-  static constexpr std::size_t kSatellites = 64;
-  static constexpr std::size_t kSignals = 33;
+  static constexpr std::size_t kSatellites = 64;  // numbers within a system
 
   bool decode(const MsmMessage& message, const MsmCell& cell, GpsTime time,
               SignalObservation* observation);
   double checked(double value, double low, double high);
-  SignalState& state_of(const MsmMessage& message, const MsmCell& cell);
+  SignalState& state_of(SatelliteId satellite, std::size_t signal);
 
   MsmMeasurementCounters counters_;
-  std::array<std::array<std::array<SignalState, kSignals>, kSatellites>, kSystems> states_{};
+  // Of each satellite's signals, by their number in the message, once they have come.
+  std::map<std::pair<SatelliteId, std::size_t>, SignalState> states_;
+  MsmLock first_lock_;  // of signals that have not come
 };
 
 }  // namespace leonav

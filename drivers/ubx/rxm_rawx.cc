@@ -56,7 +56,7 @@ bool is_within(double value, double low, double high) {
 
 }  // namespace
 
-RxmRawxDecoder::RxmRawxDecoder(const RxmRawxOptions& options) : options_(options), lock_{} {}
+RxmRawxDecoder::RxmRawxDecoder(const RxmRawxOptions& options) : options_(options) {}
 
 RxmRawxStatus RxmRawxDecoder::decode(std::span<const std::uint8_t> payload, RawEpoch* epoch) {
   if (payload.size() < kRawxHeaderSize ||
@@ -142,7 +142,7 @@ bool RxmRawxDecoder::decode_measurement(const std::uint8_t* bytes, GpsTime time,
   observation->doppler_hz = checked(block.doppler_hz, -kMaxDoppler, kMaxDoppler);
   if (block.cn0_dbhz > 0) observation->cn0_dbhz = checked(block.cn0_dbhz, 1, kMaxCn0);
   observation->lock_time_s = block.lock_time_ms * 1e-3;
-  LockState& state = lock_[lock_index(*system)][block.satellite_number][block.signal_id];
+  LockState& state = lock_[{observation->satellite, block.signal_id}];
   if (block.carrier_std_index == kNoCarrierStd) state.suspect = true;
   if (std::isfinite(observation->carrier_cycles)) {
     observation->half_cycle_ambiguous = !(block.tracking & kHalfCycleKnown);
@@ -173,10 +173,6 @@ bool RxmRawxDecoder::lock_was_lost(const LockState& last, const LockState& now) 
   if (elapsed_ms < 0.0) return true;
   if (now.lock_time_ms >= kLockTimeCeiling) return elapsed_ms > kLockTimeCeiling;
   return now.lock_time_ms + kCounterStepMs < elapsed_ms;
-}
-
-std::size_t RxmRawxDecoder::lock_index(System system) {
-  return system == System::kGps ? 0 : system == System::kGalileo ? 1 : 2;
 }
 
 }  // namespace leonav

@@ -1,9 +1,10 @@
 // This unit decodes UBX-RXM-RAWX (0x02 0x15), multi-GNSS raw measurements, to a RawEpoch. Source:
 // u-blox ZED-F9P interface description UBX-22008968, section 3.17.5.
 #pragma once
-#include <array>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 
 #include "core/gnss/signals/observation.h"
 
@@ -60,11 +61,11 @@ class RxmRawxDecoder {
   bool decode_measurement(const std::uint8_t* bytes, GpsTime time, SignalObservation* observation);
   void sort_and_drop_duplicates(RawEpoch* epoch);
   static bool lock_was_lost(const LockState& last, const LockState& now);
-  static std::size_t lock_index(System system);
 
   RxmRawxOptions options_;
   RxmRawxCounters counters_;
-  std::array<std::array<std::array<LockState, kSignalIds>, kSatellites>, 3> lock_;
+  // Of each satellite's signals, by the receiver's number, once they have come.
+  std::map<std::pair<SatelliteId, std::uint8_t>, LockState> lock_;
 };
 
 }  // namespace leonav
