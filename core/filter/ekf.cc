@@ -143,6 +143,12 @@ void Ekf::replace_attitude(const Eigen::Quaterniond& q_eb, const Vector3d& sigma
   prediction_test_.forget_consistency();
 }
 
+void Ekf::forget_attitude() {
+  if (!has_attitude()) return;
+  estimate_.forget_attitude(antenna_model_, propagator_.body());
+  prediction_test_.forget_consistency();
+}
+
 void Ekf::replace_motion(const NavState& nav, const InertialCovariance& covariance,
                          const AttitudeRandomWalk& random_walk) {
   estimate_.replace_motion(nav, covariance, random_walk);

@@ -108,6 +108,9 @@ class Ekf {
   // Replaces an attitude; its variances and correlations start anew, the antenna stays where it is.
   // Does nothing without an attitude.
   void replace_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy);
+  // Goes back to the constant-velocity model: the position moves from IMU to antenna, and the IMU's
+  // errors are forgotten. Does nothing without an attitude.
+  void forget_attitude();
   // Takes position, velocity, attitude and IMU errors, with their covariance, from another estimate
   // of the same time (StateEstimate::replace_motion). The next update starts all clock offsets and
   // ambiguities again. Precondition: initialized, and not a static point.

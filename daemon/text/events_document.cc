@@ -15,7 +15,7 @@ constexpr std::string_view kSystemCode = "system: 0 GPS, 1 Galileo, 2 BeiDou, 3 
 constexpr std::string_view kSatelliteNumber = "the satellite's number";
 constexpr std::string_view kEpochIndex = "index of the epoch";
 
-constexpr int kResetCauses = static_cast<int>(ResetCause::kWindow) + 1;  // the last one
+constexpr int kResetCauses = static_cast<int>(ResetCause::kImuGap) + 1;  // the last one
 
 struct KindEntry {
   EventKind kind;
@@ -111,6 +111,8 @@ std::string_view value_of(ResetCause cause) {
       return "rad that it was off by; it is aligned again";
     case ResetCause::kWindow:
       return "m between the two positions";
+    case ResetCause::kImuGap:
+      return "s without samples so far";
   }
   return "unknown";
 }

@@ -20,6 +20,8 @@ std::string_view reset_text(ResetCause cause) {
       return "the heading contradicts the motion";
     case ResetCause::kWindow:
       return "the filter has taken over the smoother's state";
+    case ResetCause::kImuGap:
+      return "no IMU sample has come for seconds: the attitude is unknown";
   }
   return "unknown";
 }

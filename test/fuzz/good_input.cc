@@ -34,6 +34,8 @@ void CheckedStages::push_inertial(const InertialWork& work) {
     if (std::get<Restart>(work).cause == ResetCause::kTimeBase) last_sample_ = GpsTime();
   } else if (const auto* issued = std::get_if<EpochIssued>(&work)) {
     expect(issued->index == opened_, "an epoch is issued that was not opened");
+  } else if (const auto* data = std::get_if<TimeWithoutImu>(&work)) {
+    expect(data->time.is_set(), "data without a time");
   } else {
     const auto& sample = std::get<ImuSample>(work);
     expect(sample.interval_ns > 0, "a sample's interval is not positive");

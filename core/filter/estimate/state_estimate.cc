@@ -156,6 +156,23 @@ void StateEstimate::replace_attitude(const Eigen::Quaterniond& q_eb, const Vecto
   process_.replaced = true;
 }
 
+void StateEstimate::forget_attitude(const AntennaModel& model, const BodyMotion& body) {
+  const AntennaMotion antenna = model.motion(state_, true, body);
+  const EkfCovariance T = to_antenna(antenna, 1.0, covariance_.rows());
+  const EkfCovariance P = covariance_;
+  covariance_.noalias() = T * P * T.transpose();
+  covariance_.middleRows<kInsSize - kAttitude>(kAttitude).setZero();
+  covariance_.middleCols<kInsSize - kAttitude>(kAttitude).setZero();
+  const GpsTime time = state_.nav.time;
+  state_.nav = NavState();
+  state_.nav.time = time;
+  state_.nav.p_e = antenna.p_e - model.offset_without_attitude_e(antenna.p_e);
+  state_.nav.v_e = antenna.v_e;
+  state_.random_walk = AttitudeRandomWalk();
+  has_attitude_ = false;
+  process_.continuous = false;
+}
+
 void StateEstimate::replace_motion(const NavState& nav, const InertialCovariance& covariance,
                                    const AttitudeRandomWalk& random_walk) {
   while (!state_.ambiguities.empty())

@@ -66,6 +66,9 @@ class StateEstimate {
   // Replaces the attitude alone; IMU errors keep their values and correlations.
   void replace_attitude(const Eigen::Quaterniond& q_eb, const Eigen::Vector3d& sigma_rpy,
                         const AntennaModel& model, const BodyMotion& body);
+  // Forgets attitude and IMU errors; the antenna keeps position and velocity, with their
+  // covariance. Precondition: there is an attitude.
+  void forget_attitude(const AntennaModel& model, const BodyMotion& body);
   // Replaces position, velocity, attitude and IMU errors, with their covariance, by another
   // estimate's of the same time. All other states keep their values and variances and lose their
   // correlations with these; ambiguities end.

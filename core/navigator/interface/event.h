@@ -88,7 +88,9 @@ enum class ResetCause : std::uint8_t {
   kHeading = 6,  // the heading was wrong; the alignment starts again. value: rad, its error
   // A filter that has started over takes the state of the smoother's window, which knows more;
   // value: m, change of the position.
-  kWindow = 7
+  kWindow = 7,
+  // No IMU sample came for so long that the attitude is unknown; value: s, so long.
+  kImuGap = 8
 };
 
 // The stage that emits an event. On the wire: append only. Events are numbered per stage, so that

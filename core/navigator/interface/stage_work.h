@@ -25,12 +25,13 @@
 
 namespace leonav {
 
-// An epoch has been issued. At the first IMU sample stamped with a deadline or later, the inertial
-// stage takes the epoch's result from the mailbox of that deadline.
+// An epoch has been issued. At the first IMU sample stamped with a deadline or later (or
+// TimeWithoutImu, where none comes) the inertial stage takes the epoch's result from the mailbox of
+// that deadline.
 struct EpochIssued {
   std::uint64_t index = 0;    // k
   GpsTime time;               // t_k
-  GpsTime deadline_ekf;       // tau + D_ekf, with tau the newest IMU time at the issue
+  GpsTime deadline_ekf;       // tau + D_ekf, with tau the time of the data at the issue
   GpsTime deadline_smoother;  // tau + D_smoother, not before deadline_ekf; unset: no smoother
 };
 
@@ -39,8 +40,13 @@ struct Restart {
   ResetCause cause = ResetCause::kCommand;  // kCommand or kTimeBase
 };
 
+// The IMU is silent, and the time of the data has gone on to that of the newest epoch.
+struct TimeWithoutImu {
+  GpsTime time;
+};
+
 // Work from the Sequencer to the InertialNavigator, in order.
-using InertialWork = std::variant<ImuSample, EpochIssued, Restart>;
+using InertialWork = std::variant<ImuSample, EpochIssued, Restart, TimeWithoutImu>;
 
 // An epoch with the IMU samples since the one before it, cut exactly at both ends.
 struct EpochWork {

@@ -56,7 +56,9 @@ void Sequencer::accept_imu(const ImuSample& received) {
   ++counters_.imu;
   imu_.accept(sample);
   if (!inertial_) return;
-  epochs_.clear_rejected_run();  // the IMU keeps time: GNSS alone cannot change it
+  imu_silence_.clear();
+  // The IMU keeps time: GNSS alone cannot change it, once an epoch has confirmed it.
+  if (epochs_.has_any()) epochs_.clear_rejected_run();
   imu_.rotate_to_body(&sample);
   stages_->push_inertial(sample);
   append_to_block(sample);
@@ -79,6 +81,7 @@ bool Sequencer::lay_on_timeline(ImuSample* sample) {
 void Sequencer::start_new_time(double jump_s) {
   emit(EventKind::kFilterReset, static_cast<std::uint8_t>(ResetCause::kTimeBase), jump_s);
   imu_.clear();
+  imu_silence_.clear();
   epochs_.clear();
   imu_since_epoch_.clear();
   odometer_.clear();
@@ -122,10 +125,15 @@ void Sequencer::resolve_held_epoch(GpsTime next) {
 
 void Sequencer::accept_epoch(const RawEpoch& epoch) {
   const StampDecision stamp = epochs_.evaluate(epoch.time, imu_.time());
-  if (stamp.starts_new_time) start_new_time(stamp.jump_s);
+  if (stamp.starts_new_time) {
+    const bool imu_was_alone = imu_.time().is_set() && !epochs_.has_any();
+    start_new_time(stamp.jump_s);
+    if (imu_was_alone) imu_.distrust();
+  }
   if (stamp.fault != InputFault::kNone) return reject_epoch(stamp.fault);
   if (epochs_.is_late(epoch.time)) return drop_late(epoch.time);
   epochs_.clear_rejected_run();
+  imu_.add_epoch();
   ++counters_.epochs;
   queue_epoch(epoch);
   issue_ready_epochs();
@@ -145,6 +153,9 @@ void Sequencer::drop_late(GpsTime time) {
 // waiting.
 void Sequencer::queue_epoch(const RawEpoch& epoch) {
   if (epochs_.insert(epoch) > 0) reject(InputFault::kNotSane);
+  if (!inertial_) return;
+  if (epoch.time > imu_.time()) imu_silence_.add_epoch(epoch.time);
+  if (imu_silence_.lasts()) stages_->push_inertial(TimeWithoutImu{now()});
 }
 
 void Sequencer::issue_ready_epochs() {
@@ -155,7 +166,7 @@ void Sequencer::issue_ready_epochs() {
       issue_oldest_pending();
     } else if (const GpsTime due = time_of_due_empty_epoch(); due.is_set()) {
       issue(nullptr, due);
-    } else if (epochs_.is_overdue()) {
+    } else if (waiting && (imu_silence_.lasts() || epochs_.is_overdue())) {
       if (is_event_due(++counters_.epochs_without_imu)) {
         emit(EventKind::kCapacity, static_cast<std::uint8_t>(SequencerCapacity::kPendingEpochs),
              static_cast<double>(next_index_));
@@ -184,8 +195,7 @@ void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
   work.index = next_index_++;
   work.time = time;
   work.empty = raw == nullptr;
-  work.smoother_decided =
-      last_deadline_smoother_.is_set() && last_deadline_smoother_ <= imu_.time();
+  work.smoother_decided = last_deadline_smoother_.is_set() && last_deadline_smoother_ <= now();
   work.raw.time = time;
   if (raw != nullptr) work.raw = *raw;
   imu_since_epoch_.move_to_block(time, &work.block);
@@ -201,9 +211,9 @@ void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
 void Sequencer::open_at_inertial_stage(const EpochWork& work) {
   stages_->open_epoch(work.index);
   const RealtimeConfig& realtime = config_.realtime;
-  EpochIssued issued{work.index, work.time, imu_.time().plus_seconds(realtime.deadline_ekf_s), {}};
+  EpochIssued issued{work.index, work.time, now().plus_seconds(realtime.deadline_ekf_s), {}};
   if (config_.estimator == Estimator::kSmoother)
-    issued.deadline_smoother = imu_.time().plus_seconds(realtime.smoother_deadline_s());
+    issued.deadline_smoother = now().plus_seconds(realtime.smoother_deadline_s());
   last_deadline_smoother_ = issued.deadline_smoother;
   stages_->push_inertial(issued);
 }
@@ -316,7 +326,8 @@ void Sequencer::emit(EventKind kind, std::uint8_t code, double value) {
 }
 
 GpsTime Sequencer::now() const {
-  return imu_.time().is_set() ? imu_.time() : epochs_.newest_time();
+  const bool imu_keeps_time = imu_.time().is_set() && !imu_silence_.lasts();
+  return imu_keeps_time ? imu_.time() : epochs_.newest_time();
 }
 
 }  // namespace leonav

@@ -14,6 +14,7 @@
 #include "core/navigator/sequencer/internal/epoch_queue.h"
 #include "core/navigator/sequencer/internal/imu_block_cutter.h"
 #include "core/navigator/sequencer/internal/imu_intake.h"
+#include "core/navigator/sequencer/internal/imu_silence.h"
 #include "core/navigator/sequencer/internal/odometer_queue.h"
 
 namespace leonav {
@@ -43,6 +44,9 @@ enum class SequencerCapacity : std::uint8_t {
 //   newest is more than kMaxImuLatencyNs later, or until kMaxPendingEpochs wait. It is then issued
 //   without all of its IMU data, counted, and reported as kCapacity
 //   (SequencerCapacity::kPendingEpochs).
+// - Where no IMU sample comes any more (ImuSilence), all that wait and each later one are issued at
+//   once. The time of the data is then that of the newest epoch: the inertial stage is told
+//   (TimeWithoutImu), and deadlines count from it, until a sample is accepted.
 // - An empty epoch is issued one epoch interval after the last one, when the IMU has run that
 //   interval and the wait for a GNSS latency; so blocks stay bounded. After a gap in the IMU stream
 //   it is issued at the gap's end. The start of the first IMU sample counts as an epoch here.
@@ -67,6 +71,10 @@ enum class SequencerCapacity : std::uint8_t {
 //   the time: "ahead" is counted from the IMU alone. Where they do not, a run of epochs changes the
 //   time only after more of them than the IMU may miss without an end of the answer
 //   (EpochQueue::kRunWithImu): a burst of wrong stamps between two samples costs nothing.
+// - A time of the IMU in which no epoch has been accepted, as after its clock has leapt alone, is
+//   contradicted by EpochQueue::kRunToRestart epochs: they restart everything in theirs. Until one
+//   of its samples is accepted in it, this IMU changes the time only where no epoch comes for
+//   ImuIntake::kDistrustedIntervals.
 // - Where epochs have led the time away while the IMU was silent, or before its first sample, a run
 //   of IMU samples so far behind them restarts everything in the time of the IMU.
 // - Where GNSS alone keeps time (no IMU, or none yet), an epoch that leaps ahead comes after an
@@ -147,7 +155,7 @@ class Sequencer {
   void reject_epoch(InputFault fault);
   void report_finding(const ConventionFinding& finding);
   void emit(EventKind kind, std::uint8_t code, double value);
-  GpsTime now() const;  // of the data; may be unset
+  GpsTime now() const;  // of the data: the IMU's, or the epochs' without one; may be unset
 
   NavigatorConfig config_;
   StageInputs* stages_;
@@ -155,6 +163,7 @@ class Sequencer {
   Counters counters_;
   EventNumbering events_{Stage::kSequencer};
   ImuIntake imu_;
+  ImuSilence imu_silence_;
   ImuBlockCutter imu_since_epoch_;
   EpochQueue epochs_;
   EmptyEpochSchedule empty_epochs_;

@@ -58,6 +58,8 @@ void GnssStage::process_work(const EpochWork& work) {
   follow_window(work);
   predict(work);
   apply(filter_monitor_.test_finite(ekf_), work.time);
+  const auto gap_s = imu_gaps_.add(work);
+  if (gap_s && ekf_.has_attitude()) reset(kAttitudeReset, work.time, ResetCause::kImuGap, *gap_s);
   if (!work.empty) use_measurements(work);
   apply(filter_monitor_.test_finite(ekf_), work.time);
   monitor_heading(work);
@@ -339,6 +341,7 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
   if (plan.clears_times) pending_heading_.reset();
   if (plan.filter == FilterReset::kReset) ekf_.reset();
   if (plan.filter == FilterReset::kRestart) restart_filter(plan, time, start);
+  if (plan.filter == FilterReset::kForgetAttitude) ekf_.forget_attitude();
   if (plan.carriers == CarrierReset::kAll) front_end_.reset_carriers();
   if (plan.carriers == CarrierReset::kPosition) front_end_.reset_position();
   if (plan.clears_alignment) attitude_.reset_alignment();

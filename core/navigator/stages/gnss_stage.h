@@ -10,6 +10,7 @@
 #include "core/navigator/interface/timed_mailbox.h"
 #include "core/navigator/monitors/code_combination_monitor.h"
 #include "core/navigator/monitors/filter_monitor.h"
+#include "core/navigator/monitors/imu_gap_monitor.h"
 #include "core/navigator/monitors/satellite_fault_hypotheses.h"
 #include "core/navigator/monitors/satellite_fault_monitor.h"
 #include "core/navigator/stages/internal/attitude_initializer.h"
@@ -94,6 +95,7 @@ class GnssStage {
   Ekf ekf_;
   MotionAiding motion_aiding_;
   FilterMonitor filter_monitor_;
+  ImuGapMonitor imu_gaps_;
   CodeCombinationMonitor code_combination_;
   SatelliteFaultMonitor satellite_faults_;
   FaultHypotheses fault_hypotheses_;  // after the last update

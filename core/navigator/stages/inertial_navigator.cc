@@ -35,6 +35,8 @@ void InertialNavigator::process(const InertialWork& work) {
     on_epoch(*epoch);
   } else if (const auto* restart = std::get_if<Restart>(&work)) {
     on_restart(*restart);
+  } else if (const auto* data = std::get_if<TimeWithoutImu>(&work)) {
+    on_time_without_imu(data->time);
   }
 }
 
@@ -42,28 +44,37 @@ void InertialNavigator::on_epoch(const EpochIssued& issued) {
   // There is no room where the IMU has stopped, so that no deadline is ever reached.
   if (auto oldest = decisions_.make_room()) {
     events_.emit(EventKind::kCapacity, static_cast<std::uint8_t>(InertialCapacity::kWaiting),
-                 static_cast<double>(oldest->issued.index), imu_time_);
-    decide(&*oldest, imu_time_, true);
+                 static_cast<double>(oldest->issued.index), data_time_);
+    decide(&*oldest, data_time_, true);
   }
   decisions_.push(issued);
 }
 
 void InertialNavigator::on_sample(const ImuSample& sample) {
-  const bool first = !imu_time_.is_set();
-  if (!first &&
-      (sample.time <= imu_time_ || seconds_between(sample.start(), imu_time_) > kLongestGap_s)) {
-    start_over(sample.time);
-  }
+  const bool follows_gap =
+      data_time_.is_set() && seconds_between(sample.start(), data_time_) > kLongestGap_s;
+  if (sample.time <= imu_time_ || follows_gap) start_over(sample.time);
   imu_time_ = sample.time;
+  data_time_ = std::max(data_time_, sample.time);
   propagation_.add_sample(sample);
   decide_due_epochs(sample.time);
   source_ = source_at(sample.time);
-  if (publication_due(sample)) publish(sample.time);
+  publish_newest(sample.time);
+}
+
+void InertialNavigator::on_time_without_imu(GpsTime time) {
+  if (time <= data_time_) return;
+  data_time_ = time;
+  decide_due_epochs(time);
+  const bool has_new_answer =
+      propagation_.has_anchor() && propagation_.time(time) > last_solution_time_;
+  if (has_new_answer) source_ = source_at(time);
+  publish_newest(time);
 }
 
 void InertialNavigator::on_restart(const Restart& restart) {
   if (restart.cause == ResetCause::kTimeBase) {
-    start_over(imu_time_);
+    start_over(data_time_);
   } else {
     clear_anchor();
     decisions_.invalidate_issued();
@@ -84,7 +95,7 @@ void InertialNavigator::start_over(GpsTime now) {
   }
   clear_anchor();
   propagation_.clear_samples();
-  next_solution_due_ = GpsTime();
+  imu_time_ = data_time_ = next_solution_due_ = last_solution_time_ = GpsTime();
 }
 
 // Drops the anchor after numbers have overflowed. Nothing is published until a restarted filter
@@ -143,17 +154,19 @@ bool InertialNavigator::commit(const Anchor& anchor, Source source, GpsTime now)
     return false;
   }
   const bool had_anchor = propagation_.has_anchor();
+  const GpsTime old_time = had_anchor ? propagation_.time(now) : GpsTime();
   const Eigen::Vector3d old_p_e =
       had_anchor ? propagation_.state(now).p_e : Eigen::Vector3d::Zero();
   const PvaCovariance old_covariance =
-      had_anchor ? propagation_.covariance(now) : PvaCovariance::Zero();
+      had_anchor ? propagation_.covariance(old_time) : PvaCovariance::Zero();
   if (had_anchor && source != anchor_source_)
     events_.emit(EventKind::kSourceChange, static_cast<std::uint8_t>(source),
                  static_cast<double>(anchor.index), now);
   anchor_source_ = source;
   if (anchor.gnss_used) last_gnss_time_ = anchor.state.time;
   propagation_.restart_from(anchor, decisions_.earliest_needed(anchor.state.time));
-  if (had_anchor) report_jump(old_p_e, old_covariance, now);
+  // Without samples there is no old answer at the time of the new one.
+  if (had_anchor && propagation_.time(now) == old_time) report_jump(old_p_e, old_covariance, now);
   return true;
 }
 
@@ -175,30 +188,36 @@ Source InertialNavigator::source_at(GpsTime now) const {
   return recent ? anchor_source_ : Source::kInsOnly;
 }
 
+void InertialNavigator::publish_newest(GpsTime now) {
+  if (!propagation_.has_anchor()) return;
+  const GpsTime time = propagation_.time(now);
+  if (time > last_solution_time_ && publication_due(time)) publish(time);
+}
+
 // Limits the mean rate to solution_rate_hz. Stamps that jitter by a quarter of a period lose no
 // solution.
-bool InertialNavigator::publication_due(const ImuSample& sample) {
-  if (!propagation_.has_anchor() || solution_period_ns_ <= 0) return false;
+bool InertialNavigator::publication_due(GpsTime time) {
+  if (solution_period_ns_ <= 0) return false;
   const GpsTime earliest = next_solution_due_.plus_nanoseconds(-solution_period_ns_ / 4);
-  if (next_solution_due_.is_set() && sample.time < earliest) return false;
+  if (next_solution_due_.is_set() && time < earliest) return false;
   next_solution_due_ = next_solution_due_.plus_nanoseconds(solution_period_ns_);
-  if (next_solution_due_ <= sample.time) {
-    next_solution_due_ = sample.time.plus_nanoseconds(solution_period_ns_);
-  }
+  if (next_solution_due_ <= time) next_solution_due_ = time.plus_nanoseconds(solution_period_ns_);
   return true;
 }
 
-void InertialNavigator::publish(GpsTime now) {
+void InertialNavigator::publish(GpsTime time) {
   Solution solution;
-  const PvaCovariance covariance = propagation_.covariance(now);
-  fill_solution(propagation_.state(now), covariance, propagation_.anchor().has_attitude, &solution);
-  if (!is_finite(solution)) return drop_anchor(now);
+  const PvaCovariance covariance = propagation_.covariance(time);
+  fill_solution(propagation_.state(time), covariance, propagation_.anchor().has_attitude,
+                &solution);
+  if (!is_finite(solution)) return drop_anchor(time);
   set_levels(propagation_.anchor().levels.at(nominal_error(covariance, solution)), &solution);
   solution.sequence = next_solution_++;
   solution.source = source_;
   solution.anchor_epoch = propagation_.anchor().index;
   solution.jump_m = pending_jump_m_;
   pending_jump_m_ = 0.0;
+  last_solution_time_ = time;
   sink_->on_solution(solution);
 }
 

@@ -26,6 +26,8 @@ enum class InertialCapacity : std::uint8_t {
 //   smoother's deadline. It is used only if the smoother misses it or has no result. From then on
 //   the filter's anchors are used at once, until the smoother is in time again.
 // - After a miss the older anchor remains in use: solutions continue, and their sigmas grow.
+// - While the IMU is silent (TimeWithoutImu), each new anchor is published as it is, and those
+//   without attitude at the time of the newest epoch. So the answer goes on from GNSS alone.
 // - When IMU time runs backwards or leaps, everything is dropped. The pending epochs are decided,
 //   so that the journal has one decision for each.
 // - After a restart nothing is published until there is an anchor that was issued after it. Epochs
@@ -56,6 +58,7 @@ class InertialNavigator {
   void on_sample(const ImuSample& sample);
   void on_epoch(const EpochIssued& epoch);
   void on_restart(const Restart& restart);
+  void on_time_without_imu(GpsTime time);
   // Decisions.
   void decide_due_epochs(GpsTime now);
   void decide(PendingEpoch* epoch, GpsTime now, bool usable);
@@ -69,8 +72,9 @@ class InertialNavigator {
   void drop_anchor(GpsTime now);
   // Publication.
   Source source_at(GpsTime now) const;
-  bool publication_due(const ImuSample& sample);
-  void publish(GpsTime now);
+  void publish_newest(GpsTime now);
+  bool publication_due(GpsTime time);
+  void publish(GpsTime time);
 
   OutputSink* sink_;
   EventSource events_;
@@ -80,8 +84,10 @@ class InertialNavigator {
   AnchorPropagation propagation_;
   Source anchor_source_ = Source::kEkf;
   GpsTime imu_time_;        // end of the last sample
+  GpsTime data_time_;       // the same or, if it is later, the last TimeWithoutImu
   GpsTime last_gnss_time_;  // time of the last anchor that used GNSS
   GpsTime next_solution_due_;
+  GpsTime last_solution_time_;
   double pending_jump_m_ = 0.0;  // largest jump since the last published solution
   Source source_ = Source::kNone;
   std::uint64_t next_solution_ = 1;

@@ -77,17 +77,18 @@ void InputMonitor::look_at_stream(const Gauge& accepted, double now_s, Channel c
 
 std::string_view InputMonitor::why_no_epoch(bool none_since_start) {
   const bool had_imu = counters_->accepted_imu.get() > 0;
+  // Epochs wait for a silent IMU for some seconds, and then no longer.
+  const bool wait_for_imu = expects_imu_ && counters_->epochs_without_imu.get() == 0;
   if (counters_->received[index_of(Channel::kGnssEpoch)].get() == 0)
     return "no GNSS has come: look at its sender and lcm.url";
   if (counters_->accepted_epochs.get() == 0) return with_clocks("all GNSS epochs are rejected");
-  if (expects_imu_ && counters_->received[index_of(Channel::kImu)].get() == 0)
+  if (wait_for_imu && counters_->received[index_of(Channel::kImu)].get() == 0)
     return "no IMU sample has come: look at its sender and lcm.url";
-  if (expects_imu_ && !had_imu) {
+  if (wait_for_imu && !had_imu) {
     with_fault("all IMU samples are rejected", Channel::kImu);
     return detail_ += ": look at their sender";
   }
-  if (expects_imu_ && imu_.used.is_late())
-    return "no IMU sample is used any more: look at its sender";
+  if (wait_for_imu && lacks_imu()) return "no IMU sample is used any more: look at its sender";
   if (!gnss_.used.is_late()) return "";
   if (!are_clocks_apart()) return "no GNSS epoch is used any more: look at its sender";
   // What was rejected before the start was compared with a time of the IMU that holds no more.

@@ -28,6 +28,8 @@ class InputMonitor {
   // Whether an input that the answer needs does not come any more. Messages that are refused are no
   // silence.
   bool is_silent() const;
+  // Whether an IMU is expected and no sample of it has been accepted for a second.
+  bool lacks_imu() const { return expects_imu_ && imu_.used.is_late(); }
 
  private:
   // An input by which the answer lives.

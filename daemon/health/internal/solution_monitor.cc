@@ -48,7 +48,9 @@ std::span<const Finding> SolutionMonitor::look(double now_s, InputMonitor* input
     // Between an attitude and the first answer with it nothing lacks any more.
     const AlignmentNeed need = unpack_alignment_need(counters_->alignment_need.get());
     const AlignmentText text = to_text(need, alignment_);
-    found_.add(HealthReason::kAligning, {text.data(), text.size()});
+    found_.add(HealthReason::kAligning, inputs->lacks_imu()
+                                            ? std::string_view("no IMU sample is used")
+                                            : std::string_view(text.data(), text.size()));
   }
   if (source == Source::kInsOnly)
     found_.add(expects_imu_ ? HealthReason::kInsOnly : HealthReason::kPredictionOnly);

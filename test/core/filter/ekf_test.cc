@@ -68,6 +68,7 @@ class Drive {
   double yaw_error() const { return synthetic::C_en_at(state_.p_e).col(2).dot(attitude_error()); }
   double position_error() const { return (state_.p_e - filter_.state().p_e).norm(); }
   Ekf& filter() { return filter_; }
+  const Vector3d& lever_b() const { return lever_b_; }
   const NavState& state() const { return state_; }
   const synthetic::Truth& truth() const { return truth_; }
 
@@ -218,6 +219,47 @@ TEST_CASE("a heading from outside leaves the antenna and the IMU's errors as the
         Approx(2e-4 + 2.5e-3).epsilon(1e-3));
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(filter.covariance());
   CHECK(eigen.eigenvalues().minCoeff() > -1e-9);
+}
+
+TEST_CASE("without its attitude the filter knows the antenna and the clocks as well as before") {
+  Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 8);
+  for (int second = 0; second < 60; ++second) {
+    drive.predict(slalom(second));
+    drive.update();
+  }
+  Ekf& filter = drive.filter();
+  const EkfCovariance P = filter.covariance();
+  const Vector3d p_antenna = filter.antenna_position_e(), v_antenna = filter.antenna_velocity_e();
+  const GpsTime time = filter.state().time;
+  // By how much the antenna moves with each error state, numerically, through the model's
+  // equations.
+  const AntennaMotion antenna =
+      antenna_motion(filter.state(), filter.body().measured_rate_b, drive.lever_b(), true,
+                     filter.filter_state().vehicle, filter.body().acceleration_e);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, P.rows());
+  H.block<6, 6>(0, kPosition).setIdentity();
+  H.block<3, 3>(0, kAttitude) = antenna.d_p_d_attitude;
+  H.block<3, 3>(3, kAttitude) = antenna.d_v_d_attitude;
+  H.block<3, 3>(3, kGyroBias) = antenna.d_v_d_gyro_bias;
+  H.block<3, 3>(3, kGyroScale) = antenna.d_v_d_gyro_scale;
+  const Eigen::MatrixXd expected = H * P * H.transpose();
+  filter.forget_attitude();
+  CHECK_FALSE(filter.has_attitude());
+  CHECK(filter.state().time == time);
+  CHECK(filter.state().errors.gyro_bias_b.isZero(0.0));
+  CHECK((filter.antenna_position_e() - p_antenna).norm() < 1e-8);
+  CHECK((filter.antenna_velocity_e() - v_antenna).norm() < 1e-8);
+  const EkfCovariance after = filter.covariance();
+  REQUIRE(after.rows() == P.rows());
+  CHECK((after.block<6, 6>(0, 0) - expected).norm() < 1e-9 * expected.norm());
+  CHECK(after.middleRows<kInsSize - kAttitude>(kAttitude).isZero(0.0));
+  const auto rest = P.rows() - kInsSize;
+  CHECK(after.bottomRightCorner(rest, rest) == P.bottomRightCorner(rest, rest));
+  CHECK((after.block(0, kInsSize, 6, rest) - H * P.rightCols(rest)).norm() < 1e-9 * P.norm());
+  drive.update();  // as a filter without attitude does
+  CHECK((filter.antenna_position_e() - drive.truth().p_antenna_e).norm() < 3.0);
+  filter.forget_attitude();  // again: nothing
+  CHECK_FALSE(filter.has_attitude());
 }
 
 TEST_CASE("corrections between blocks do not interrupt coning and sculling") {

@@ -52,6 +52,6 @@ TEST_CASE("what stands between reasons is in no sentence that a reason has as it
   for (std::size_t i = 0; i < kConventionCount; ++i)
     for (const double value : {-18.0, 18.0})
       CHECK(convention_text(static_cast<Convention>(i), value).find(';') == std::string::npos);
-  for (int cause = 0; cause <= static_cast<int>(ResetCause::kWindow); ++cause)
+  for (int cause = 0; cause <= static_cast<int>(ResetCause::kImuGap); ++cause)
     CHECK(reset_text(static_cast<ResetCause>(cause)).find(';') == std::string_view::npos);
 }

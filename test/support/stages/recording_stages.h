@@ -22,6 +22,7 @@ struct RecordingStages : StageInputs {
   std::vector<Block> blocks;
   std::vector<Command> commands;
   std::vector<Restart> restarts;
+  std::vector<TimeWithoutImu> times_without_imu;
   std::vector<std::size_t> restarts_at_command;  // how many there were at each command
   std::vector<PreciseStates> precise;
   std::vector<Checkpoint> checkpoints;
@@ -32,6 +33,7 @@ struct RecordingStages : StageInputs {
     if (const auto* sample = std::get_if<ImuSample>(&work)) samples.push_back(*sample);
     if (const auto* epoch = std::get_if<EpochIssued>(&work)) issued.push_back(*epoch);
     if (const auto* restart = std::get_if<Restart>(&work)) restarts.push_back(*restart);
+    if (const auto* data = std::get_if<TimeWithoutImu>(&work)) times_without_imu.push_back(*data);
   }
   void push_gnss(const GnssWork& work) override {
     if (const auto* command = std::get_if<Command>(&work)) {

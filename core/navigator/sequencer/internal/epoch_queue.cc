@@ -28,7 +28,8 @@ StampDecision EpochQueue::evaluate(GpsTime time, GpsTime imu_time) {
   const std::int64_t ahead_ns = nanoseconds_between(time, reference);
   if (ahead_ns > max_ahead_ns_ || ahead_ns < -kMaxStampAheadNs) {
     const bool is_run = time_monitor_.reject(time);
-    if (!is_run || (imu_time.is_set() && time_monitor_.run() < run_with_imu_)) {
+    const bool imu_counts = imu_time.is_set() && has_any_;
+    if (!is_run || (imu_counts && time_monitor_.run() < run_with_imu_)) {
       return {ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards};
     }
     return {InputFault::kNone, true, seconds_between(time, reference)};
@@ -48,6 +49,7 @@ bool EpochQueue::is_known(GpsTime time) const {
 }
 
 std::size_t EpochQueue::insert(const RawEpoch& epoch) {
+  has_any_ = true;
   const std::size_t left_out = copy_valid_observations(epoch, pending_[count_].get());
   for (std::size_t i = count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
     std::swap(pending_[i], pending_[i - 1]);
@@ -94,7 +96,7 @@ void EpochQueue::clear() {
   last_is_empty_ = true;
   imu_time_at_last_ = GpsTime();
   count_ = 0;
-  has_held_ = false;
+  has_held_ = has_any_ = false;
   time_monitor_.clear();
 }
 

@@ -32,12 +32,15 @@ class EpochQueue {
   explicit EpochQueue(double epoch_interval_s);
 
   // Decides whether the stamp of an epoch fits. `imu_time` is the end of the last accepted IMU
-  // sample; may be unset. A late epoch passes here; is_late() finds it.
+  // sample; may be unset. A late epoch passes here; is_late() finds it. Where no epoch has been
+  // accepted since the last time step, kRunToRestart epochs suffice to contradict the IMU.
   StampDecision evaluate(GpsTime time, GpsTime imu_time);
   // Returns how far an epoch may lie ahead of everything seen, ns.
   std::int64_t max_ahead_ns() const { return max_ahead_ns_; }
   // Ends the run of rejected epochs, because an IMU sample or an epoch has fitted.
   void clear_rejected_run() { time_monitor_.clear(); }
+  // Returns whether an epoch has been accepted since the last time step.
+  bool has_any() const { return has_any_; }
   bool is_late(GpsTime time) const { return time <= last_time_; }
   // Returns whether the stamp is so much later than the newest epoch that it is wrong or follows an
   // outage.
@@ -89,6 +92,7 @@ class EpochQueue {
   GpsTime last_time_;         // of the last issued epoch, or where the IMU stream began
   GpsTime last_raw_time_;     // of the last issued epoch that was not empty
   bool last_is_empty_ = true;
+  bool has_any_ = false;  // epoch has been accepted
 };
 
 }  // namespace leonav

@@ -6,6 +6,7 @@
 #include "core/base/duration.h"
 #include "core/earth/rotation.h"
 #include "core/navigator/sequencer/input_validation.h"
+#include "core/navigator/sequencer/internal/interval.h"
 
 namespace leonav {
 namespace {
@@ -22,7 +23,9 @@ ImuIntake::ImuIntake(const NavigatorConfig& config)
           rotation_from_euler({config.vehicle.mounting_rpy.x(), config.vehicle.mounting_rpy.y(),
                                config.vehicle.mounting_rpy.z()})),
       mounting_is_identity_(config.vehicle.mounting_rpy.isZero(0.0)),
-      offset_ns_(rounded_nanoseconds(config.imu_time_offset_s)) {}
+      offset_ns_(rounded_nanoseconds(config.imu_time_offset_s)),
+      distrusted_run_ns_(
+          interval_in_nanoseconds(kDistrustedIntervals * config.realtime.epoch_interval_s)) {}
 
 ImuSample ImuIntake::shift_stamp(const ImuSample& received) const {
   ImuSample sample = received;
@@ -54,10 +57,11 @@ StampDecision ImuIntake::evaluate_stamp(const ImuSample& sample, GpsTime newest_
                              is_behind(sample, time_, kMaxStampAheadNs);
   const bool backwards = behind_others || !timeline_.follows(sample);
   const bool ahead =
-      last_stamp.is_set() &&
+      (last_stamp.is_set() || distrusted_) &&
       nanoseconds_between(sample.time, std::max(last_stamp, newest_epoch)) > kMaxStampAheadNs;
   if (!backwards && !ahead) return {};
-  if (!time_monitor_.reject(sample.time)) {
+  const bool is_run = time_monitor_.reject(sample.time);
+  if (!is_run || (distrusted_ && time_monitor_.run_ns() < distrusted_run_ns_)) {
     return {backwards ? InputFault::kTimeBackwards : InputFault::kTooFarAhead};
   }
   const GpsTime old = last_stamp.is_set() ? last_stamp : newest_epoch;
@@ -66,6 +70,7 @@ StampDecision ImuIntake::evaluate_stamp(const ImuSample& sample, GpsTime newest_
 
 void ImuIntake::accept(const ImuSample& sample) {
   time_monitor_.clear();
+  distrusted_ = false;
   time_ = sample.time;
 }
 

@@ -25,6 +25,8 @@ class ImuIntake {
   static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
   static constexpr std::int64_t kMaxIntervalNs = 100'000'000;
   static constexpr int kRunToRestart = 20;  // samples that must agree on a new time
+  // A distrusted IMU's samples must agree for so many epoch intervals without an epoch.
+  static constexpr double kDistrustedIntervals = 2.5;
 
   explicit ImuIntake(const NavigatorConfig& config);
 
@@ -58,6 +60,13 @@ class ImuIntake {
   GpsTime time() const { return time_; }
   // Removes everything, after a time step.
   void clear();
+  // Notes that epochs have contradicted the time of this IMU and are followed. Until one of its
+  // samples is accepted, it can change the time only where epochs have stopped; tell it of each
+  // accepted epoch by add_epoch().
+  void distrust() { distrusted_ = true; }
+  void add_epoch() {
+    if (distrusted_) time_monitor_.clear();
+  }
 
  private:
   Eigen::Matrix3d C_b_imu_;  // IMU axes to body axes
@@ -66,6 +75,8 @@ class ImuIntake {
   FrozenImuMonitor frozen_;  // outlives a time step
   ImuTimeline timeline_;
   TimeStepMonitor time_monitor_{kRunToRestart, kMaxStepNs};
+  std::int64_t distrusted_run_ns_;
+  bool distrusted_ = false;
   std::optional<ImuSample> held_;
   GpsTime time_;
 };

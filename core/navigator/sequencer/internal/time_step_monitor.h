@@ -19,13 +19,16 @@ class TimeStepMonitor {
   // Ends the run, because a stamp was accepted.
   void clear() { run_ = 0; }
 
-  // Returns the length of the run so far.
+  // Returns the number of stamps of the run so far, and the time from the first to the last of
+  // them.
   int run() const { return run_; }
+  std::int64_t run_ns() const { return run_ > 0 ? nanoseconds_between(last_, first_) : 0; }
 
   // Adds a stamp that does not fit. Returns true if it completes a run and is to be accepted.
   bool reject(GpsTime stamp) {
     const std::int64_t step = nanoseconds_between(stamp, last_);
     run_ = run_ > 0 && step > 0 && step <= max_step_ns_ ? run_ + 1 : 1;
+    if (run_ == 1) first_ = stamp;
     last_ = stamp;
     return run_ >= run_to_accept_;
   }
@@ -34,7 +37,7 @@ class TimeStepMonitor {
   int run_to_accept_;
   std::int64_t max_step_ns_;
   int run_ = 0;
-  GpsTime last_;
+  GpsTime first_, last_;  // of the run
 };
 
 }  // namespace leonav

@@ -34,8 +34,12 @@ class AnchorPropagation {
   void clear_anchor();
   void clear_samples();
 
-  // These return state and covariance at the end of the newest sample, `now`. Precondition: there
-  // is an anchor.
+  // Returns the time of the state: with attitude that of the anchor or, if it is later, of the
+  // newest sample's end; without attitude `now`. Precondition: there is an anchor.
+  GpsTime time(GpsTime now) const {
+    return anchor_.has_attitude ? mechanization_.state().time : now;
+  }
+  // These return state and covariance at time(now). Precondition: there is an anchor.
   NavState state(GpsTime now) const;
   PvaCovariance covariance(GpsTime now) const;
 

@@ -6,9 +6,10 @@ namespace leonav {
 
 // The filter's part of a reset.
 enum class FilterReset : unsigned char {
-  kReset,    // only the configuration remains; a later point solution starts the filter
-  kRestart,  // the filter starts at once from a point solution
-  kReplaced  // the filter has taken another estimate's state before
+  kReset,          // only the configuration remains; a later point solution starts the filter
+  kRestart,        // the filter starts at once from a point solution
+  kReplaced,       // the filter has taken another estimate's state before
+  kForgetAttitude  // the filter goes on without attitude and IMU errors
 };
 // The carriers' part of a reset.
 enum class CarrierReset : unsigned char {
@@ -83,6 +84,13 @@ inline constexpr ResetPlan kHeadingReset = {.filter = FilterReset::kRestart,
                                             .clears_alignment = true,
                                             .clears_external_heading = true,
                                             .counts_as_gnss_epoch = true};
+
+// Reset after a gap in the IMU samples in which the vehicle may have turned anywhere. Position,
+// velocity, clocks and ambiguities go on, and the alignment starts anew.
+inline constexpr ResetPlan kAttitudeReset = {.filter = FilterReset::kForgetAttitude,
+                                             .keeps_vehicle_constants = true,
+                                             .carriers = CarrierReset::kPosition,
+                                             .clears_alignment = true};
 
 // Reset of a filter that has taken over the state of the smoother's window, attitude included.
 inline constexpr ResetPlan kWindowReset = {.filter = FilterReset::kReplaced,

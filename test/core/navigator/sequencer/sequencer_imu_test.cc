@@ -105,16 +105,29 @@ TEST_CASE("a hole of three seconds is reported, left as a hole, and bridged by o
 }
 
 TEST_CASE("when the IMU stops, epochs go on without it and it may come back") {
-  SequencerRig rig;
+  const NavigatorConfig config;
+  SequencerRig rig(config);
   rig.imu(0, 1100);
   for (int k = 1; k <= 30; ++k) rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000 * k)));
-  // Four always wait for an IMU that may only be slow.
-  CHECK(rig.stages.blocks.size() == 26);
-  CHECK(rig.stages.blocks.back().samples.empty());
-  rig.imu(29'500, 31'000);
+  // Four waited for an IMU that might only be slow. At the fifth they were issued, and each later
+  // one at once.
   CHECK(rig.stages.blocks.size() == 30);
-  CHECK(rig.stages.blocks.back().time == at_ms(30'000));
+  CHECK(rig.stages.blocks.back().samples.empty());
+  REQUIRE(rig.stages.times_without_imu.size() == 25);
+  CHECK(rig.stages.times_without_imu.front().time == at_ms(6000));
+  CHECK(rig.stages.times_without_imu.back().time == at_ms(30'000));
+  for (const EpochIssued& issued : rig.stages.issued) {
+    const GpsTime expected = std::max(issued.time, at_ms(issued.index == 1 ? 1100 : 6000));
+    CHECK(issued.deadline_ekf == expected.plus_seconds(config.realtime.deadline_ekf_s));
+  }
+  rig.imu(29'500, 31'000);
   CHECK(rig.stages.commands.empty());
+  // It keeps time again.
+  for (int k = 31; k <= 33; ++k) rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000 * k)));
+  CHECK(rig.stages.blocks.size() == 31);
+  CHECK(rig.stages.blocks.back().time == at_ms(31'000));
+  CHECK_FALSE(rig.stages.blocks.back().samples.empty());
+  CHECK(rig.stages.times_without_imu.size() == 25);
 }
 
 TEST_CASE("the mounting turns IMU axes into the body frame") {

@@ -64,7 +64,7 @@ std::size_t findings(const SequencerRig& rig) {
 
 TEST_CASE("in a new time the stamps of IMU and GNSS are compared anew") {
   SequencerRig rig;
-  constexpr std::int64_t kOffset = 3'600'000, kDay = 86'400'000;
+  constexpr std::int64_t kOffset = 8'000, kDay = 86'400'000;
   const auto drive = [&](std::int64_t from_s, std::int64_t to_s) {
     for (std::int64_t s = from_s; s < to_s; ++s) {
       rig.imu(1000 * s + kOffset, 1000 * (s + 1) + kOffset);
@@ -101,14 +101,62 @@ TEST_CASE("samples that were refused in the old time do not convict an IMU in th
   CHECK(findings(rig) == 1);
 }
 
-TEST_CASE("GNSS alone cannot change the time the IMU keeps") {
+TEST_CASE("GNSS alone cannot change the time that IMU and GNSS keep together") {
   SequencerRig rig;
-  for (int k = 0; k < 20; ++k) {
+  rig.imu(0, 1000);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));
+  for (int k = 1; k < 21; ++k) {
     rig.imu(1000 * k, 1000 * (k + 1));
     rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000 * k + 3'600'000)));
   }
   CHECK(rig.rejected(InputFault::kTooFarAhead) == 20);
   CHECK(rig.stages.commands.empty());
+}
+
+TEST_CASE("an IMU whose clock leaps away is left, and followed again once it is right or alone") {
+  constexpr std::int64_t kHour = 3'600'000;
+  // At the start, or after IMU and GNSS have kept time together; ahead or behind.
+  const int together_s = GENERATE(0, 10);
+  const std::int64_t leap_ms = std::int64_t{1000} * GENERATE(-3600, 12, 3600);
+  CAPTURE(together_s, leap_ms);
+  SequencerRig rig;
+  const auto base = 2 * kHour;  // milliseconds
+  int s = 0;
+  const auto drive = [&](int seconds, std::int64_t imu_off_ms, bool gnss) {
+    for (const int end = s + seconds; s < end; ++s) {
+      rig.imu(base + imu_off_ms + 1000 * s, base + imu_off_ms + 1000 * (s + 1));
+      if (gnss) rig.sequencer.on_raw_epoch(epoch_at(at_ms(base + 1000 * (s + 1))));
+    }
+  };
+  const auto issued_since = [&](std::size_t before, bool with_samples) {
+    std::size_t count = 0;
+    for (std::size_t i = before; i < rig.stages.blocks.size(); ++i)
+      count += rig.stages.blocks[i].observations > 0 &&
+                       rig.stages.blocks[i].samples.empty() != with_samples
+                   ? 1
+                   : 0;
+    return count;
+  };
+  drive(together_s, 0, true);
+  drive(30, leap_ms, true);
+  // Five epochs contradict the IMU, and five more show that nothing comes from it.
+  std::size_t before = rig.stages.blocks.size();
+  drive(20, leap_ms, true);
+  CHECK(issued_since(before, false) == 20);
+  CHECK(rig.stages.times_without_imu.size() >= 20);
+  const std::size_t restarts = rig.stages.commands.size();
+  CHECK(restarts == (together_s > 0 ? 2 : 1));
+  SECTION("right again") {
+    before = rig.stages.blocks.size();
+    drive(10, 0, true);
+    CHECK(issued_since(before, true) >= 9);
+    CHECK(rig.stages.commands.size() == restarts);
+  }
+  SECTION("alone") {
+    drive(10, leap_ms, false);
+    REQUIRE(rig.stages.commands.size() == restarts + 1);
+    CHECK(rig.sequencer.imu_time() == at_ms(base + leap_ms + 1000 * s));
+  }
 }
 
 }  // namespace

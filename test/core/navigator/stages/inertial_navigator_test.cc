@@ -225,6 +225,41 @@ TEST_CASE("epochs that pile up while the IMU stands still are each decided once"
   CHECK(rig.sink.solutions.back().anchor_epoch == 200);
 }
 
+TEST_CASE("without samples each anchor is an answer, and samples of before are none") {
+  InertialRig rig;
+  const auto time_without_imu = [&](double t) {
+    rig.navigator.process(TimeWithoutImu{kSkyEpoch.plus_seconds(t)});
+  };
+  rig.feed(0.0, 2.0);
+  rig.issue(1, 2.0, 0.03);
+  rig.mailbox.deliver(1, rig.anchor(1, 2.0));
+  rig.feed(2.0, 2.1);
+  const std::size_t before = rig.sink.solutions.size();
+  time_without_imu(16.0);
+  CHECK(rig.sink.solutions.size() == before);
+  rig.issue(2, 16.0, 0.03);
+  rig.mailbox.deliver(2, rig.anchor(2, 16.0, 0.5));
+  time_without_imu(16.02);  // its deadline has not come
+  CHECK(rig.sink.solutions.size() == before);
+  time_without_imu(17.0);
+  REQUIRE(rig.sink.solutions.size() == before + 1);
+  CHECK(rig.sink.solutions.back().time == kSkyEpoch.plus_seconds(16.0));
+  CHECK(rig.sink.solutions.back().p_e == rig.anchor(2, 16.0, 0.5).state.p_e);
+  CHECK(rig.sink.solutions.back().source == Source::kEkf);
+  CHECK(rig.sink.solutions.back().sigma_p_n.norm() == Approx(std::sqrt(3.0)).epsilon(1e-6));
+  rig.feed(15.0, 16.0);
+  CHECK(rig.sink.solutions.size() == before + 1);
+  rig.feed(16.0, 18.0);
+  REQUIRE(rig.sink.solutions.size() == before + 401);
+  for (std::size_t i = 1; i < rig.sink.solutions.size(); ++i) {
+    const Solution& solution = rig.sink.solutions[i];
+    REQUIRE(solution.time > rig.sink.solutions[i - 1].time);
+    CHECK((solution.p_e - rig.drive.truth_at(solution.time).p_e).norm() < 0.6);
+  }
+  CHECK(rig.sink.count(EventKind::kSolutionJump) == 0);
+  CHECK(rig.sink.count(EventKind::kDeadlineMiss) == 0);
+}
+
 TEST_CASE("a solution that is no number is never published; the next anchor answers again") {
   for (const double push : {1e160, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
     CAPTURE(push);

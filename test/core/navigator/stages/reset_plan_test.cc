@@ -1,4 +1,4 @@
-// The five presets of ResetPlan, against a table written down by hand.
+// The six presets of ResetPlan, against a table written down by hand.
 #include "core/navigator/stages/internal/reset_plan.h"
 
 #include "support/catch.h"
@@ -6,7 +6,7 @@
 namespace leonav {
 namespace {
 
-TEST_CASE("the five resets clear what their presets list, and nothing else") {
+TEST_CASE("the six resets clear what their presets list, and nothing else") {
   struct Row {
     ResetPlan plan;
     FilterReset filter;
@@ -21,6 +21,8 @@ TEST_CASE("the five resets clear what their presets list, and nothing else") {
       {kDropReset, kReset, kPosition, true, false, false, true, false, false},
       {kHeadingReset, kRestart, kPosition, true, true, false, false, false, false},
       {kWindowReset, FilterReset::kReplaced, kPosition, true, false, false, false, false, false},
+      {kAttitudeReset, FilterReset::kForgetAttitude, kPosition, true, false, false, false, false,
+       false},
       {restart_reset(true, true), kRestart, kPosition, false, false, false, false, false, false},
       {restart_reset(false, false), kRestart, kPosition, true, false, false, false, false, false},
   };
@@ -35,6 +37,8 @@ TEST_CASE("the five resets clear what their presets list, and nothing else") {
     CHECK(row.plan.clears_times == row.times);
   }
   CHECK(kWindowReset.keeps_attitude);
+  CHECK_FALSE(kAttitudeReset.keeps_attitude);
+  CHECK(kAttitudeReset.keeps_vehicle_constants);
   CHECK(restart_reset(true, true).keeps_attitude);
   CHECK_FALSE(restart_reset(false, true).keeps_attitude);
   CHECK(restart_reset(false, true).keeps_vehicle_constants);
