@@ -18,7 +18,7 @@ struct Decision {
   };
   std::uint64_t sequence = 0;  // counts the decisions of one stage, from 1
   std::uint64_t epoch = 0;     // index k
-  GpsTime time;                // data time of the IMU at which it was decided
+  GpsTime time;                // data time at which it was decided
   Subject subject = Subject::kFilter;
   bool committed = false;
   std::int32_t iterations = 0;  // that the smoother's solve has done

@@ -23,6 +23,10 @@ void Sequencer::on_imu(const ImuSample& received) {
   const InputFault fault = imu_.check(sample);
   if (inertial_) monitor_conventions(sample, fault);
   if (fault != InputFault::kNone) return reject_imu(fault);
+  if (!inertial_) {  // nobody uses it, so its time does not matter
+    ++counters_.imu;
+    return;
+  }
   if (const auto leapt = imu_.release_held()) {
     if (sample.time > leapt->time)
       accept_imu(*leapt);
@@ -55,10 +59,9 @@ void Sequencer::accept_imu(const ImuSample& received) {
 
   ++counters_.imu;
   imu_.accept(sample);
-  if (!inertial_) return;
   imu_silence_.clear();
   // The IMU keeps time: GNSS alone cannot change it, once an epoch has confirmed it.
-  if (epochs_.has_any()) epochs_.clear_rejected_run();
+  if (epochs_.confirms_imu()) epochs_.clear_rejected_run();
   imu_.rotate_to_body(&sample);
   stages_->push_inertial(sample);
   append_to_block(sample);
@@ -87,7 +90,7 @@ void Sequencer::start_new_time(double jump_s) {
   odometer_.clear();
   refused_imu_ = RefusedImuMonitor();
   stamp_offset_ = StampOffsetMonitor();
-  last_deadline_smoother_ = GpsTime();
+  last_issue_ = last_deadline_smoother_ = GpsTime();
   push_command({CommandKind::kRestart, 0.0, 0.0, ResetCause::kTimeBase});
 }
 
@@ -108,8 +111,7 @@ void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
 
 // Holds an epoch that follows an outage or has a wrong stamp, until the next one decides which.
 bool Sequencer::hold(const RawEpoch& epoch) {
-  const bool gnss_keeps_time = !inertial_ || !imu_.time().is_set();
-  if (!gnss_keeps_time || !epochs_.leaps(epoch.time)) return false;
+  if (imu_keeps_time() || !epochs_.leaps(epoch.time)) return false;
   epochs_.hold(epoch);
   return true;
 }
@@ -124,19 +126,28 @@ void Sequencer::resolve_held_epoch(GpsTime next) {
 }
 
 void Sequencer::accept_epoch(const RawEpoch& epoch) {
-  const StampDecision stamp = epochs_.evaluate(epoch.time, imu_.time());
-  if (stamp.starts_new_time) {
-    const bool imu_was_alone = imu_.time().is_set() && !epochs_.has_any();
-    start_new_time(stamp.jump_s);
-    if (imu_was_alone) imu_.distrust();
-  }
+  const StampDecision stamp =
+      epochs_.evaluate(epoch.time, imu_keeps_time() ? imu_.time() : GpsTime());
+  if (stamp.starts_new_time)
+    follow_epochs(stamp.jump_s, imu_.time().is_set() && !epochs_.confirms_imu());
   if (stamp.fault != InputFault::kNone) return reject_epoch(stamp.fault);
-  if (epochs_.is_late(epoch.time)) return drop_late(epoch.time);
+  if (epochs_.is_late(epoch.time)) {
+    const bool contradicts = inertial_ && epochs_.add_late(epoch.time, imu_keeps_time());
+    if (!contradicts) return drop_late(epoch.time);
+    follow_epochs(seconds_between(epoch.time, epochs_.last_time()), imu_.time().is_set());
+  }
   epochs_.clear_rejected_run();
+  epochs_.clear_late_run();
   imu_.add_epoch();
+  if (imu_keeps_time()) epochs_.confirm_imu();
   ++counters_.epochs;
   queue_epoch(epoch);
   issue_ready_epochs();
+}
+
+void Sequencer::follow_epochs(double jump_s, bool against_imu) {
+  start_new_time(jump_s);
+  if (against_imu) imu_.distrust();
 }
 
 // Counts a late epoch. If an empty epoch was issued for it, the wait was too short.
@@ -154,19 +165,20 @@ void Sequencer::drop_late(GpsTime time) {
 void Sequencer::queue_epoch(const RawEpoch& epoch) {
   if (epochs_.insert(epoch) > 0) reject(InputFault::kNotSane);
   if (!inertial_) return;
-  if (epoch.time > imu_.time()) imu_silence_.add_epoch(epoch.time);
+  imu_silence_.add_epoch(epoch.time, imu_.time());
   if (imu_silence_.lasts()) stages_->push_inertial(TimeWithoutImu{now()});
 }
 
 void Sequencer::issue_ready_epochs() {
-  for (;;) {
+  for (int of_silence = 0;;) {
     const bool waiting = !epochs_.empty();
     const bool passed = waiting && (!inertial_ || epochs_.oldest().time <= imu_.time());
     if (passed) {
       issue_oldest_pending();
     } else if (const GpsTime due = time_of_due_empty_epoch(); due.is_set()) {
       issue(nullptr, due);
-    } else if (waiting && (imu_silence_.lasts() || epochs_.is_overdue())) {
+    } else if (waiting &&
+               ((imu_silence_.lasts() && ++of_silence <= kMostAtOnce) || epochs_.is_overdue())) {
       if (is_event_due(++counters_.epochs_without_imu)) {
         emit(EventKind::kCapacity, static_cast<std::uint8_t>(SequencerCapacity::kPendingEpochs),
              static_cast<double>(next_index_));
@@ -211,9 +223,10 @@ void Sequencer::issue(const RawEpoch* raw, GpsTime time) {
 void Sequencer::open_at_inertial_stage(const EpochWork& work) {
   stages_->open_epoch(work.index);
   const RealtimeConfig& realtime = config_.realtime;
-  EpochIssued issued{work.index, work.time, now().plus_seconds(realtime.deadline_ekf_s), {}};
+  last_issue_ = std::max(last_issue_, now());  // samples after a silence may be earlier
+  EpochIssued issued{work.index, work.time, last_issue_.plus_seconds(realtime.deadline_ekf_s), {}};
   if (config_.estimator == Estimator::kSmoother)
-    issued.deadline_smoother = now().plus_seconds(realtime.smoother_deadline_s());
+    issued.deadline_smoother = last_issue_.plus_seconds(realtime.smoother_deadline_s());
   last_deadline_smoother_ = issued.deadline_smoother;
   stages_->push_inertial(issued);
 }
@@ -325,9 +338,8 @@ void Sequencer::emit(EventKind kind, std::uint8_t code, double value) {
   stages_->event(events_.next(kind, code, value, now()));
 }
 
-GpsTime Sequencer::now() const {
-  const bool imu_keeps_time = imu_.time().is_set() && !imu_silence_.lasts();
-  return imu_keeps_time ? imu_.time() : epochs_.newest_time();
-}
+GpsTime Sequencer::now() const { return imu_keeps_time() ? imu_.time() : epochs_.newest_time(); }
+
+bool Sequencer::imu_keeps_time() const { return imu_.time().is_set() && !imu_silence_.lasts(); }
 
 }  // namespace leonav

@@ -45,8 +45,9 @@ enum class SequencerCapacity : std::uint8_t {
 //   without all of its IMU data, counted, and reported as kCapacity
 //   (SequencerCapacity::kPendingEpochs).
 // - Where no IMU sample comes any more (ImuSilence), all that wait and each later one are issued at
-//   once. The time of the data is then that of the newest epoch: the inertial stage is told
-//   (TimeWithoutImu), and deadlines count from it, until a sample is accepted.
+//   once, at most kMostAtOnce with each epoch that comes. The time of the data is then that of the
+//   newest epoch: the inertial stage is told (TimeWithoutImu), and deadlines count from it, until a
+//   sample is accepted.
 // - An empty epoch is issued one epoch interval after the last one, when the IMU has run that
 //   interval and the wait for a GNSS latency; so blocks stay bounded. After a gap in the IMU stream
 //   it is issued at the gap's end. The start of the first IMU sample counts as an epoch here.
@@ -71,13 +72,16 @@ enum class SequencerCapacity : std::uint8_t {
 //   the time: "ahead" is counted from the IMU alone. Where they do not, a run of epochs changes the
 //   time only after more of them than the IMU may miss without an end of the answer
 //   (EpochQueue::kRunWithImu): a burst of wrong stamps between two samples costs nothing.
-// - A time of the IMU in which no epoch has been accepted, as after its clock has leapt alone, is
-//   contradicted by EpochQueue::kRunToRestart epochs: they restart everything in theirs. Until one
+// - A time of the IMU that no epoch has confirmed, as after its clock has leapt alone, is
+//   contradicted by EpochQueue::kRunToRestart epochs that are rejected, or late for longer than
+//   EpochQueue::kLateRunNs: they restart everything in theirs. One that epochs have confirmed is
+//   contradicted by EpochQueue::kRunWithImu late ones, as after a leap by seconds. Until one
 //   of its samples is accepted in it, this IMU changes the time only where no epoch comes for
-//   ImuIntake::kDistrustedIntervals.
+//   ImuIntake::kDistrustedRunNs, or kDistrustedIntervals where that is longer.
 // - Where epochs have led the time away while the IMU was silent, or before its first sample, a run
 //   of IMU samples so far behind them restarts everything in the time of the IMU.
-// - Where GNSS alone keeps time (no IMU, or none yet), an epoch that leaps ahead comes after an
+// - Where GNSS alone keeps time (no IMU, none yet, or a silent one), an epoch that leaps ahead
+// comes after an
 //   outage or has a wrong stamp. It is held until the next one: if that is later, there was an
 //   outage. So an outage of any length, or an interval other than configured, costs no epoch.
 // - An odometer increment goes with the first epoch not earlier than its end: OdometerQueue.
@@ -127,6 +131,9 @@ class Sequencer {
   GpsTime odometer_time() const { return odometer_.last_time(); }
 
  private:
+  // When silence begins, more epochs may wait than stages take at once.
+  static constexpr int kMostAtOnce = 8;
+
   // IMU.
   void monitor_conventions(const ImuSample& sample, InputFault fault);
   void accept_imu(const ImuSample& received);
@@ -136,6 +143,7 @@ class Sequencer {
   bool hold(const RawEpoch& epoch);
   void resolve_held_epoch(GpsTime next);
   void accept_epoch(const RawEpoch& epoch);
+  void follow_epochs(double jump_s, bool against_imu);
   void drop_late(GpsTime time);
   void queue_epoch(const RawEpoch& epoch);
   void issue_ready_epochs();
@@ -155,7 +163,8 @@ class Sequencer {
   void reject_epoch(InputFault fault);
   void report_finding(const ConventionFinding& finding);
   void emit(EventKind kind, std::uint8_t code, double value);
-  GpsTime now() const;  // of the data: the IMU's, or the epochs' without one; may be unset
+  bool imu_keeps_time() const;  // else the epochs do
+  GpsTime now() const;          // of the data: the IMU's, or the epochs' without one; may be unset
 
   NavigatorConfig config_;
   StageInputs* stages_;
@@ -172,6 +181,7 @@ class Sequencer {
   RefusedImuMonitor refused_imu_;
   StampOffsetMonitor stamp_offset_;
   std::uint64_t next_index_ = 1;
+  GpsTime last_issue_;              // time of the data then
   GpsTime last_deadline_smoother_;  // of the epoch issued last
   std::unique_ptr<GnssWork> work_;  // too large for a thread's stack
 };

@@ -59,6 +59,7 @@ void GnssStage::process_work(const EpochWork& work) {
   predict(work);
   apply(filter_monitor_.test_finite(ekf_), work.time);
   const auto gap_s = imu_gaps_.add(work);
+  if (gap_s) pending_keyframe_.end_window();  // also of a window that alone has an attitude
   if (gap_s && ekf_.has_attitude()) reset(kAttitudeReset, work.time, ResetCause::kImuGap, *gap_s);
   if (!work.empty) use_measurements(work);
   apply(filter_monitor_.test_finite(ekf_), work.time);

@@ -31,6 +31,7 @@ std::span<const Finding> InputMonitor::look(double now_s) {
   look_at_shares();
   if (expects_imu_)
     look_at_stream(counters_->accepted_imu, now_s, Channel::kImu, HealthReason::kNoImu, &imu_);
+  if (!imu_.used.is_late()) without_imu_before_ = counters_->epochs_without_imu.get();
   look_at_stream(counters_->accepted_epochs, now_s, Channel::kGnssEpoch, HealthReason::kNoGnss,
                  &gnss_);
   if (uses_odometer_ && counters_->accepted_odometer.get() > 0)
@@ -78,7 +79,8 @@ void InputMonitor::look_at_stream(const Gauge& accepted, double now_s, Channel c
 std::string_view InputMonitor::why_no_epoch(bool none_since_start) {
   const bool had_imu = counters_->accepted_imu.get() > 0;
   // Epochs wait for a silent IMU for some seconds, and then no longer.
-  const bool wait_for_imu = expects_imu_ && counters_->epochs_without_imu.get() == 0;
+  const bool wait_for_imu =
+      expects_imu_ && counters_->epochs_without_imu.get() == without_imu_before_;
   if (counters_->received[index_of(Channel::kGnssEpoch)].get() == 0)
     return "no GNSS has come: look at its sender and lcm.url";
   if (counters_->accepted_epochs.get() == 0) return with_clocks("all GNSS epochs are rejected");

@@ -59,7 +59,8 @@ class InputMonitor {
   std::array<Rates, kInputChannels.size()> rates_;
   RecentFaults faults_;
   GrowthSinceLook lost_, imu_gaps_;
-  std::string detail_;  // of the reason that is looked at
+  std::int64_t without_imu_before_ = 0;  // epochs, while the IMU was last in use
+  std::string detail_;                   // of the reason that is looked at
   Findings found_;
 };
 

@@ -15,6 +15,7 @@ EpochQueue::EpochQueue(double epoch_interval_s)
           kRunWithImu,
           static_cast<int>(kImuSilenceNs / interval_in_nanoseconds(epoch_interval_s)) + 2)),
       time_monitor_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)),
+      late_monitor_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)),
       held_(std::make_unique<RawEpoch>()) {
   for (auto& slot : pending_) slot = std::make_unique<RawEpoch>();
 }
@@ -28,7 +29,7 @@ StampDecision EpochQueue::evaluate(GpsTime time, GpsTime imu_time) {
   const std::int64_t ahead_ns = nanoseconds_between(time, reference);
   if (ahead_ns > max_ahead_ns_ || ahead_ns < -kMaxStampAheadNs) {
     const bool is_run = time_monitor_.reject(time);
-    const bool imu_counts = imu_time.is_set() && has_any_;
+    const bool imu_counts = imu_time.is_set() && confirms_imu_;
     if (!is_run || (imu_counts && time_monitor_.run() < run_with_imu_)) {
       return {ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards};
     }
@@ -49,7 +50,6 @@ bool EpochQueue::is_known(GpsTime time) const {
 }
 
 std::size_t EpochQueue::insert(const RawEpoch& epoch) {
-  has_any_ = true;
   const std::size_t left_out = copy_valid_observations(epoch, pending_[count_].get());
   for (std::size_t i = count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
     std::swap(pending_[i], pending_[i - 1]);
@@ -69,6 +69,13 @@ bool EpochQueue::is_overdue() const {
   if (count_ <= kMinPending) return false;
   const GpsTime newest = pending_[count_ - 1]->time;
   return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
+}
+
+bool EpochQueue::add_late(GpsTime time, bool imu_keeps_time) {
+  const bool is_run = late_monitor_.reject(time);
+  if (imu_keeps_time && confirms_imu_)
+    return is_run && late_monitor_.run() >= run_with_imu_ && late_monitor_.run_ns() > kImuSilenceNs;
+  return time_monitor_.reject(time) && time_monitor_.run_ns() > kLateRunNs;
 }
 
 GpsTime EpochQueue::newest_time() const {
@@ -96,8 +103,9 @@ void EpochQueue::clear() {
   last_is_empty_ = true;
   imu_time_at_last_ = GpsTime();
   count_ = 0;
-  has_held_ = has_any_ = false;
+  has_held_ = confirms_imu_ = false;
   time_monitor_.clear();
+  late_monitor_.clear();
 }
 
 }  // namespace leonav

@@ -27,20 +27,24 @@ class EpochQueue {
   // The oldest epoch is overdue if more than kMinPending epochs wait and the newest is more than
   // kMaxImuLatencyNs later.
   static constexpr std::size_t kMinPending = 4;
+  static constexpr std::int64_t kLateRunNs = 3'000'000'000;  // more than GNSS may be late
   static constexpr std::int64_t kMaxImuLatencyNs = 2'000'000'000;
 
   explicit EpochQueue(double epoch_interval_s);
 
   // Decides whether the stamp of an epoch fits. `imu_time` is the end of the last accepted IMU
-  // sample; may be unset. A late epoch passes here; is_late() finds it. Where no epoch has been
-  // accepted since the last time step, kRunToRestart epochs suffice to contradict the IMU.
+  // sample; may be unset. A late epoch passes here; is_late() finds it. While no epoch has
+  // confirmed the IMU's time, kRunToRestart epochs suffice to contradict it.
   StampDecision evaluate(GpsTime time, GpsTime imu_time);
   // Returns how far an epoch may lie ahead of everything seen, ns.
   std::int64_t max_ahead_ns() const { return max_ahead_ns_; }
   // Ends the run of rejected epochs, because an IMU sample or an epoch has fitted.
   void clear_rejected_run() { time_monitor_.clear(); }
-  // Returns whether an epoch has been accepted since the last time step.
-  bool has_any() const { return has_any_; }
+  // Ends the run of late epochs, because one was in time.
+  void clear_late_run() { late_monitor_.clear(); }
+  // Records that an epoch has fitted the time of the IMU, until the next time step.
+  void confirm_imu() { confirms_imu_ = true; }
+  bool confirms_imu() const { return confirms_imu_; }
   bool is_late(GpsTime time) const { return time <= last_time_; }
   // Returns whether the stamp is so much later than the newest epoch that it is wrong or follows an
   // outage.
@@ -56,6 +60,10 @@ class EpochQueue {
   // Returns whether the oldest epoch has waited long enough: its IMU samples are late, or have
   // stopped.
   bool is_overdue() const;
+  // Adds an epoch that is late to the run of those that contradict the IMU, and returns whether
+  // they are enough: so many, and over so long, that no latency explains it. As many as wrong
+  // stamps between two samples are too few while an epoch has confirmed the IMU's time and it runs.
+  bool add_late(GpsTime time, bool imu_keeps_time);
   // Returns the time of the newest epoch waiting, else of the last one issued; may be unset.
   GpsTime newest_time() const;
 
@@ -84,6 +92,7 @@ class EpochQueue {
   std::int64_t max_ahead_ns_;
   int run_with_imu_;
   TimeStepMonitor time_monitor_;
+  TimeStepMonitor late_monitor_;                                          // of late epochs alone
   std::array<std::unique_ptr<RawEpoch>, kMaxPendingEpochs + 1> pending_;  // the first count_
   std::size_t count_ = 0;
   std::unique_ptr<RawEpoch> held_;  // meaningful while has_held_
@@ -92,7 +101,7 @@ class EpochQueue {
   GpsTime last_time_;         // of the last issued epoch, or where the IMU stream began
   GpsTime last_raw_time_;     // of the last issued epoch that was not empty
   bool last_is_empty_ = true;
-  bool has_any_ = false;  // epoch has been accepted
+  bool confirms_imu_ = false;
 };
 
 }  // namespace leonav

@@ -24,8 +24,11 @@ ImuIntake::ImuIntake(const NavigatorConfig& config)
                                config.vehicle.mounting_rpy.z()})),
       mounting_is_identity_(config.vehicle.mounting_rpy.isZero(0.0)),
       offset_ns_(rounded_nanoseconds(config.imu_time_offset_s)),
-      distrusted_run_ns_(
-          interval_in_nanoseconds(kDistrustedIntervals * config.realtime.epoch_interval_s)) {}
+      distrusted_run_ns_(std::max(
+          kDistrustedRunNs,
+          interval_in_nanoseconds(kDistrustedIntervals * config.realtime.epoch_interval_s))),
+      distrusted_offset_ns_(kDistrustedOffsetNs +
+                            interval_in_nanoseconds(1.5 * config.realtime.epoch_interval_s)) {}
 
 ImuSample ImuIntake::shift_stamp(const ImuSample& received) const {
   ImuSample sample = received;
@@ -53,12 +56,14 @@ StampDecision ImuIntake::evaluate_stamp(const ImuSample& sample, GpsTime newest_
                                         std::int64_t max_epoch_ahead_ns) {
   const GpsTime last_stamp = timeline_.last_stamp();
   if (last_stamp.is_set() && sample.time == last_stamp) return {InputFault::kDuplicate};
-  const bool behind_others = is_behind(sample, newest_epoch, max_epoch_ahead_ns) ||
-                             is_behind(sample, time_, kMaxStampAheadNs);
+  const std::int64_t behind_ns = distrusted_ ? distrusted_offset_ns_ : max_epoch_ahead_ns;
+  const std::int64_t ahead_ns = distrusted_ ? distrusted_offset_ns_ : kMaxStampAheadNs;
+  const bool behind_others =
+      is_behind(sample, newest_epoch, behind_ns) || is_behind(sample, time_, kMaxStampAheadNs);
   const bool backwards = behind_others || !timeline_.follows(sample);
   const bool ahead =
       (last_stamp.is_set() || distrusted_) &&
-      nanoseconds_between(sample.time, std::max(last_stamp, newest_epoch)) > kMaxStampAheadNs;
+      nanoseconds_between(sample.time, std::max(last_stamp, newest_epoch)) > ahead_ns;
   if (!backwards && !ahead) return {};
   const bool is_run = time_monitor_.reject(sample.time);
   if (!is_run || (distrusted_ && time_monitor_.run_ns() < distrusted_run_ns_)) {

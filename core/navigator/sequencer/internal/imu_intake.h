@@ -25,8 +25,12 @@ class ImuIntake {
   static constexpr double kMaxSpecificForce = 500.0;  // m/s^2
   static constexpr std::int64_t kMaxIntervalNs = 100'000'000;
   static constexpr int kRunToRestart = 20;  // samples that must agree on a new time
-  // A distrusted IMU's samples must agree for so many epoch intervals without an epoch.
+  // A distrusted IMU's samples must agree for so long without an epoch, or for so many epoch
+  // intervals where that is longer.
+  static constexpr std::int64_t kDistrustedRunNs = 10'000'000'000;
   static constexpr double kDistrustedIntervals = 2.5;
+  // Its first accepted sample is not further from the newest epoch than so much and 1.5 intervals.
+  static constexpr std::int64_t kDistrustedOffsetNs = 2'000'000'000;
 
   explicit ImuIntake(const NavigatorConfig& config);
 
@@ -75,7 +79,7 @@ class ImuIntake {
   FrozenImuMonitor frozen_;  // outlives a time step
   ImuTimeline timeline_;
   TimeStepMonitor time_monitor_{kRunToRestart, kMaxStepNs};
-  std::int64_t distrusted_run_ns_;
+  std::int64_t distrusted_run_ns_, distrusted_offset_ns_;
   bool distrusted_ = false;
   std::optional<ImuSample> held_;
   GpsTime time_;

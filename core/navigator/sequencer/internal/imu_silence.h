@@ -7,29 +7,36 @@
 
 namespace leonav {
 
-// The IMU is silent once more than kMinEpochs epochs have come that are later than its last
-// accepted sample, with no sample between them, the newest more than kMinLengthNs after the first.
-// It is silent until a sample is accepted. An IMU whose samples come late, but come, is not silent.
+// Of epochs that are later than its last accepted sample, with no sample between them, more than
+// kMinEpochs show that the IMU is silent, the newest more than kMinLengthNs after the first. Of
+// epochs that come rarely two suffice, the newest more than kLongNs after that sample. The IMU is
+// silent until a sample is accepted. One whose samples come late, but come, is not silent.
 class ImuSilence {
  public:
   static constexpr std::size_t kMinEpochs = 4;
   static constexpr std::int64_t kMinLengthNs = 2'000'000'000;
+  static constexpr std::int64_t kLongNs = 10'000'000'000;
 
   // Ends the silence, because a sample was accepted or time itself has changed.
-  void clear() { epochs_ = 0; }
-  // Adds an accepted epoch that is later than the last sample.
-  void add_epoch(GpsTime time) {
-    if (lasts()) return;
+  void clear() {
+    epochs_ = 0;
+    lasts_ = false;
+  }
+  // Adds an accepted epoch. `last_sample`: end of the last accepted sample, or unset.
+  void add_epoch(GpsTime time, GpsTime last_sample) {
+    if (lasts_ || time <= last_sample) return;
     if (epochs_++ == 0) first_ = time;
-    is_long_ = nanoseconds_between(time, first_) > kMinLengthNs;
+    const bool many = epochs_ > kMinEpochs && nanoseconds_between(time, first_) > kMinLengthNs;
+    const GpsTime begin = last_sample.is_set() ? last_sample : first_;
+    lasts_ = many || (epochs_ > 1 && nanoseconds_between(time, begin) > kLongNs);
   }
   // Returns whether the IMU is silent.
-  bool lasts() const { return epochs_ > kMinEpochs && is_long_; }
+  bool lasts() const { return lasts_; }
 
  private:
-  std::size_t epochs_ = 0;  // since the last sample, until the silence is long enough
+  std::size_t epochs_ = 0;  // later than the last sample, until they suffice
   GpsTime first_;           // of these
-  bool is_long_ = false;
+  bool lasts_ = false;
 };
 
 }  // namespace leonav

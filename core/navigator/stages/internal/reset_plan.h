@@ -1,4 +1,4 @@
-// ResetPlan lists in what the resets of the filter in the GNSS stage differ; there are five
+// ResetPlan lists in what the resets of the filter in the GNSS stage differ; there are six
 // presets.
 #pragma once
 
@@ -38,7 +38,7 @@ enum class CarrierReset : unsigned char {
 // continue.
 struct ResetPlan {
   FilterReset filter = FilterReset::kReset;
-  // For kRestart only.
+  // For kRestart; the filters of kReplaced and kForgetAttitude keep them.
   bool keeps_vehicle_constants = false;
   bool keeps_attitude = false;  // see AttitudeCarryOver
   CarrierReset carriers = CarrierReset::kPosition;
@@ -90,7 +90,8 @@ inline constexpr ResetPlan kHeadingReset = {.filter = FilterReset::kRestart,
 inline constexpr ResetPlan kAttitudeReset = {.filter = FilterReset::kForgetAttitude,
                                              .keeps_vehicle_constants = true,
                                              .carriers = CarrierReset::kPosition,
-                                             .clears_alignment = true};
+                                             .clears_alignment = true,
+                                             .clears_external_heading = true};
 
 // Reset of a filter that has taken over the state of the smoother's window, attitude included.
 inline constexpr ResetPlan kWindowReset = {.filter = FilterReset::kReplaced,

@@ -130,6 +130,30 @@ TEST_CASE("when the IMU stops, epochs go on without it and it may come back") {
   CHECK(rig.stages.times_without_imu.size() == 25);
 }
 
+TEST_CASE("an IMU is silent after some epochs, however often these come") {
+  const auto [interval_ms, expected] = GENERATE(
+      table<int, int>({{50, 2050}, {100, 2100}, {1000, 4000}, {5000, 10'000}, {30'000, 30'000}}));
+  CAPTURE(interval_ms);
+  NavigatorConfig config;
+  config.realtime.epoch_interval_s = 0.001 * interval_ms;
+  SequencerRig rig(config);
+  rig.imu(0, 1000);
+  rig.sequencer.on_raw_epoch(epoch_at(at_ms(1000)));
+  int ms = 1000 + interval_ms;
+  for (const int first = ms; ms <= first + 4 * expected; ms += interval_ms) {
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms)));
+    CHECK(rig.stages.times_without_imu.empty() == (ms - first < expected));
+  }
+  CHECK(rig.stages.blocks.back().time == at_ms(ms - interval_ms));  // none waits any more
+  // An outage of GNSS as well, of any length, restarts nothing.
+  for (int k = 0; k < 3; ++k)
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms + 600'000 + k * interval_ms)));
+  CHECK(rig.stages.commands.empty());
+  CHECK(rig.stages.blocks.back().time == at_ms(ms + 600'000 + 2 * interval_ms));
+  for (std::size_t i = 1; i < rig.stages.issued.size(); ++i)
+    CHECK(rig.stages.issued[i].deadline_ekf >= rig.stages.issued[i - 1].deadline_ekf);
+}
+
 TEST_CASE("the mounting turns IMU axes into the body frame") {
   NavigatorConfig config;
   config.vehicle.mounting_rpy = {0.0, 0.0, 1.5707963267948966};

@@ -21,7 +21,7 @@ TEST_CASE("the six resets clear what their presets list, and nothing else") {
       {kDropReset, kReset, kPosition, true, false, false, true, false, false},
       {kHeadingReset, kRestart, kPosition, true, true, false, false, false, false},
       {kWindowReset, FilterReset::kReplaced, kPosition, true, false, false, false, false, false},
-      {kAttitudeReset, FilterReset::kForgetAttitude, kPosition, true, false, false, false, false,
+      {kAttitudeReset, FilterReset::kForgetAttitude, kPosition, true, true, false, false, false,
        false},
       {restart_reset(true, true), kRestart, kPosition, false, false, false, false, false, false},
       {restart_reset(false, false), kRestart, kPosition, true, false, false, false, false, false},
