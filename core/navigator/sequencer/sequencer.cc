@@ -132,8 +132,8 @@ void Sequencer::accept_epoch(const RawEpoch& epoch) {
     follow_epochs(stamp.jump_s, imu_.time().is_set() && !epochs_.confirms_imu());
   if (stamp.fault != InputFault::kNone) return reject_epoch(stamp.fault);
   if (epochs_.is_late(epoch.time)) {
-    const bool contradicts = inertial_ && epochs_.add_late(epoch.time, imu_keeps_time());
-    if (!contradicts) return drop_late(epoch.time);
+    const GpsTime imu_time = imu_keeps_time() ? imu_.time() : GpsTime();
+    if (!epochs_.add_late(epoch.time, imu_time)) return drop_late(epoch.time);
     follow_epochs(seconds_between(epoch.time, epochs_.last_time()), imu_.time().is_set());
   }
   epochs_.clear_rejected_run();

@@ -71,10 +71,12 @@ bool EpochQueue::is_overdue() const {
   return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
 }
 
-bool EpochQueue::add_late(GpsTime time, bool imu_keeps_time) {
-  const bool is_run = late_monitor_.reject(time);
-  if (imu_keeps_time && confirms_imu_)
-    return is_run && late_monitor_.run() >= run_with_imu_ && late_monitor_.run_ns() > kImuSilenceNs;
+bool EpochQueue::add_late(GpsTime time, GpsTime imu_time) {
+  if (imu_time.is_set() && confirms_imu_) {
+    if (nanoseconds_between(imu_time, time) <= kLateRunNs) return false;
+    return late_monitor_.reject(time) && late_monitor_.run() >= run_with_imu_ &&
+           late_monitor_.run_ns() > kImuSilenceNs;
+  }
   return time_monitor_.reject(time) && time_monitor_.run_ns() > kLateRunNs;
 }
 

@@ -61,9 +61,11 @@ class EpochQueue {
   // stopped.
   bool is_overdue() const;
   // Adds an epoch that is late to the run of those that contradict the IMU, and returns whether
-  // they are enough: so many, and over so long, that no latency explains it. As many as wrong
-  // stamps between two samples are too few while an epoch has confirmed the IMU's time and it runs.
-  bool add_late(GpsTime time, bool imu_keeps_time);
+  // they are enough: so many, and over so long, that no latency explains it. `imu_time`, unset
+  // where it does not keep the time, that an epoch has confirmed is contradicted by no fewer than
+  // would change the time while it is silent, and only if it is further ahead than GNSS may be
+  // late: else it is wrong epochs that were ahead.
+  bool add_late(GpsTime time, GpsTime imu_time);
   // Returns the time of the newest epoch waiting, else of the last one issued; may be unset.
   GpsTime newest_time() const;
 

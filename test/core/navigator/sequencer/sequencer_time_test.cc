@@ -107,6 +107,16 @@ TEST_CASE("without an IMU a clock set back costs a short run, whatever the inter
   }
 }
 
+TEST_CASE("without an IMU a clock set back by seconds costs five epochs, refused or late") {
+  const double back_s = GENERATE(5.0, 9.0, 14.0, 60.0);
+  CAPTURE(back_s);
+  SecondRig rig(gnss_only(1.0));
+  rig.epochs(0.0, 1.0, 50);
+  rig.epochs(50.0 - back_s, 1.0, 10);
+  CHECK(rig.rejected() + rig.sequencer.counters().late_epochs <= EpochQueue::kRunToRestart);
+  CHECK(rig.last_s() == Approx(60.0 - back_s).margin(1.0));
+}
+
 TEST_CASE("stamps in UTC at first, leap seconds later: eighteen seconds either way") {
   for (const double error_s : {-18.0, 18.0}) {
     CAPTURE(error_s);
