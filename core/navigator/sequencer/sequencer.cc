@@ -51,8 +51,9 @@ void Sequencer::monitor_conventions(const ImuSample& sample, InputFault fault) {
 
 void Sequencer::accept_imu(const ImuSample& received) {
   ImuSample sample = received;
-  const StampDecision stamp =
-      imu_.evaluate_stamp(sample, epochs_.newest_time(), epochs_.max_ahead_ns());
+  // Wrong epochs that wait ahead must not keep out an IMU that is right again.
+  const GpsTime epoch = imu_.is_distrusted() ? epochs_.last_accepted_time() : epochs_.newest_time();
+  const StampDecision stamp = imu_.evaluate_stamp(sample, epoch, epochs_.max_ahead_ns());
   if (stamp.fault != InputFault::kNone) return reject_imu(stamp.fault);
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
   if (!lay_on_timeline(&sample)) return reject_imu(InputFault::kTimeBackwards);

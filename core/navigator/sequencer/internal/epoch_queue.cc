@@ -50,6 +50,7 @@ bool EpochQueue::is_known(GpsTime time) const {
 }
 
 std::size_t EpochQueue::insert(const RawEpoch& epoch) {
+  last_accepted_time_ = epoch.time;
   const std::size_t left_out = copy_valid_observations(epoch, pending_[count_].get());
   for (std::size_t i = count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
     std::swap(pending_[i], pending_[i - 1]);
@@ -101,7 +102,7 @@ void EpochQueue::set_issued(GpsTime time, bool empty) {
 }
 
 void EpochQueue::clear() {
-  last_time_ = last_raw_time_ = GpsTime();
+  last_time_ = last_raw_time_ = last_accepted_time_ = GpsTime();
   last_is_empty_ = true;
   imu_time_at_last_ = GpsTime();
   count_ = 0;

@@ -69,6 +69,9 @@ class EpochQueue {
   // Returns the time of the newest epoch waiting, else of the last one issued; may be unset.
   GpsTime newest_time() const;
 
+  // Returns the time of the epoch accepted last, which may be older than the newest; may be unset.
+  GpsTime last_accepted_time() const { return last_accepted_time_; }
+
   // Holds one epoch apart until the next input confirms its stamp.
   void hold(const RawEpoch& epoch);
   bool has_held() const { return has_held_; }
@@ -104,6 +107,7 @@ class EpochQueue {
   GpsTime last_raw_time_;     // of the last issued epoch that was not empty
   bool last_is_empty_ = true;
   bool confirms_imu_ = false;
+  GpsTime last_accepted_time_;
 };
 
 }  // namespace leonav

@@ -68,6 +68,7 @@ class ImuIntake {
   // samples is accepted, it can change the time only where epochs have stopped; tell it of each
   // accepted epoch by add_epoch().
   void distrust() { distrusted_ = true; }
+  bool is_distrusted() const { return distrusted_; }
   void add_epoch() {
     if (distrusted_) time_monitor_.clear();
   }
