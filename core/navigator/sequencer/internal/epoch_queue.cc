@@ -68,8 +68,7 @@ void EpochQueue::remove_oldest() {
 bool EpochQueue::is_overdue() const {
   if (count_ > kMaxPendingEpochs) return true;
   if (count_ <= kMinPending) return false;
-  const GpsTime newest = pending_[count_ - 1]->time;
-  return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
+  return nanoseconds_between(last_accepted_time_, pending_[0]->time) > kMaxImuLatencyNs;
 }
 
 bool EpochQueue::add_late(GpsTime time, GpsTime imu_time) {

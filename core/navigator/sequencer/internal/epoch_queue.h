@@ -24,8 +24,8 @@ class EpochQueue {
   // inertial answer goes on: at least so many epochs, and more than such a silence has.
   static constexpr int kRunWithImu = 12;
   static constexpr std::int64_t kImuSilenceNs = 10'000'000'000;
-  // The oldest epoch is overdue if more than kMinPending epochs wait and the newest is more than
-  // kMaxImuLatencyNs later.
+  // The oldest epoch is overdue if more than kMinPending epochs wait and the one accepted last is
+  // more than kMaxImuLatencyNs later. Those with wrong stamps may be far ahead of both.
   static constexpr std::size_t kMinPending = 4;
   static constexpr std::int64_t kLateRunNs = 3'000'000'000;  // more than GNSS may be late
   static constexpr std::int64_t kMaxImuLatencyNs = 2'000'000'000;

@@ -27,7 +27,7 @@ class ImuIntake {
   static constexpr int kRunToRestart = 20;  // samples that must agree on a new time
   // A distrusted IMU's samples must agree for so long without an epoch, or for so many epoch
   // intervals where that is longer.
-  static constexpr std::int64_t kDistrustedRunNs = 10'000'000'000;
+  static constexpr std::int64_t kDistrustedRunNs = 5'000'000'000;
   static constexpr double kDistrustedIntervals = 2.5;
   // Its first accepted sample is not further from the newest epoch than so much and 1.5 intervals.
   static constexpr std::int64_t kDistrustedOffsetNs = 2'000'000'000;

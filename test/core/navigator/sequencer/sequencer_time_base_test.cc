@@ -155,7 +155,7 @@ TEST_CASE("an IMU whose clock leaps away is left, and followed again once it is 
     CHECK(rig.stages.commands.size() == restarts);
   }
   SECTION("alone") {
-    drive(8, leap_ms, false);
+    drive(3, leap_ms, false);
     CHECK(rig.stages.commands.size() == restarts);
     drive(4, leap_ms, false);
     REQUIRE(rig.stages.commands.size() == restarts + 1);
