@@ -14,13 +14,12 @@ namespace {
 
 constexpr std::int64_t kDay = 86'400 * kSecond;
 
-// How long the Sequencer may need, from its rules: five epochs contradict the time of before. Then
-// an accepted epoch may lie so far ahead of the IMU's stamps, to which the configured offset is
-// added. Then one epoch may be late, by which the wait for the others becomes long enough, and two
-// come.
+// How long the Sequencer may need, from its rules: an accepted epoch lies so far ahead of the IMU's
+// stamps, to which the configured offset is added. Then one epoch may be late, by which the wait
+// for the others becomes long enough, and two come.
 int recovery_seconds(const NavigatorConfig& config) {
   const double ahead_s = std::max(10.0, 3.0 * config.realtime.epoch_interval_s);
-  return static_cast<int>(std::ceil(ahead_s + std::max(config.imu_time_offset_s, 0.0))) + 5 + 3;
+  return static_cast<int>(std::ceil(ahead_s + std::max(config.imu_time_offset_s, 0.0))) + 3;
 }
 
 }  // namespace

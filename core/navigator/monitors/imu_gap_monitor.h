@@ -6,19 +6,20 @@
 
 namespace leonav {
 
-// A filter is linear in the error of its attitude. What a vehicle turns within kLongestGap_s
-// without a measured rate, which may be a right angle, is beyond that: then the attitude must be
-// found anew.
+// The filter's equations are linear in the error of the attitude. Within kLongestGap_s without a
+// measured rate a vehicle may turn by a right angle, for which they do not hold. So after a longer
+// gap the attitude must be aligned again.
 class ImuGapMonitor {
  public:
   static constexpr double kLongestGap_s = 3.0;
 
-  // Adds the next epoch. Returns the length of the longest gap between the samples up to this
-  // epoch, in s, if it is too long; a gap that goes on is returned at each of its epochs.
+  // Adds the next epoch. Returns the length of a gap between samples, in s, once it is too long: at
+  // the first epoch that shows it, and not again until samples have come.
   std::optional<double> add(const EpochWork& work);
 
  private:
-  GpsTime last_sample_;  // its end; unset: none yet
+  GpsTime last_sample_;   // its end; unset: none yet
+  bool is_told_ = false;  // the gap since then
 };
 
 }  // namespace leonav

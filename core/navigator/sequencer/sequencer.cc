@@ -51,16 +51,18 @@ void Sequencer::monitor_conventions(const ImuSample& sample, InputFault fault) {
 
 void Sequencer::accept_imu(const ImuSample& received) {
   ImuSample sample = received;
-  // Wrong epochs that wait ahead must not keep out an IMU that is right again.
-  const GpsTime epoch = imu_.is_distrusted() ? epochs_.last_accepted_time() : epochs_.newest_time();
-  const StampDecision stamp = imu_.evaluate_stamp(sample, epoch, epochs_.max_ahead_ns());
+  const StampDecision stamp = imu_.evaluate_stamp(
+      sample, epochs_.newest_time(), epochs_.max_ahead_ns(), epochs_.max_imu_offset_ns());
   if (stamp.fault != InputFault::kNone) return reject_imu(stamp.fault);
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
+  const bool comes_too_late =
+      sample.time < epochs_.last_time() && epochs_.are_apart(sample.time, epochs_.last_time());
+  if (comes_too_late && imu_silence_.lasts()) return reject_imu(InputFault::kTimeBackwards);
   if (!lay_on_timeline(&sample)) return reject_imu(InputFault::kTimeBackwards);
 
   ++counters_.imu;
   imu_.accept(sample);
-  imu_silence_.clear();
+  if (!comes_too_late) imu_silence_.clear();
   // The IMU keeps time: GNSS alone cannot change it, once an epoch has confirmed it.
   if (epochs_.confirms_imu()) epochs_.clear_rejected_run();
   imu_.rotate_to_body(&sample);
@@ -135,7 +137,8 @@ void Sequencer::accept_epoch(const RawEpoch& epoch) {
   if (epochs_.is_late(epoch.time)) {
     const GpsTime imu_time = imu_keeps_time() ? imu_.time() : GpsTime();
     if (!epochs_.add_late(epoch.time, imu_time)) return drop_late(epoch.time);
-    follow_epochs(seconds_between(epoch.time, epochs_.last_time()), imu_.time().is_set());
+    const bool against_imu = imu_.time().is_set() && epochs_.are_apart(imu_.time(), epoch.time);
+    follow_epochs(seconds_between(epoch.time, epochs_.last_time()), against_imu);
   }
   epochs_.clear_rejected_run();
   epochs_.clear_late_run();

@@ -44,10 +44,10 @@ enum class SequencerCapacity : std::uint8_t {
 //   newest is more than kMaxImuLatencyNs later, or until kMaxPendingEpochs wait. It is then issued
 //   without all of its IMU data, counted, and reported as kCapacity
 //   (SequencerCapacity::kPendingEpochs).
-// - Where no IMU sample comes any more (ImuSilence), all that wait and each later one are issued at
-//   once, at most kMostAtOnce with each epoch that comes. The time of the data is then that of the
-//   newest epoch: the inertial stage is told (TimeWithoutImu), and deadlines count from it, until a
-//   sample is accepted.
+// - While the IMU is silent (ImuSilence), epochs do not wait for it. Those that wait are issued, at
+//   most kMostAtOnce with each epoch that comes. The newest epoch is then the time of the data: the
+//   inertial stage gets it as TimeWithoutImu, and deadlines begin at it. The first sample that
+//   comes in time ends this.
 // - An empty epoch is issued one epoch interval after the last one, when the IMU has run that
 //   interval and the wait for a GNSS latency; so blocks stay bounded. After a gap in the IMU stream
 //   it is issued at the gap's end. The start of the first IMU sample counts as an epoch here.
@@ -72,18 +72,21 @@ enum class SequencerCapacity : std::uint8_t {
 //   the time: "ahead" is counted from the IMU alone. Where they do not, a run of epochs changes the
 //   time only after more of them than the IMU may miss without an end of the answer
 //   (EpochQueue::kRunWithImu): a burst of wrong stamps between two samples costs nothing.
-// - A time of the IMU that no epoch has confirmed, as after its clock has leapt alone, is
-//   contradicted by EpochQueue::kRunToRestart epochs that are rejected, or late for longer than
-//   EpochQueue::kLateRunNs: they restart everything in theirs. One that epochs have confirmed is
-//   contradicted by EpochQueue::kRunWithImu late ones, as after a leap by seconds. Until one
-//   of its samples is accepted in it, this IMU changes the time only where no epoch comes for
-//   ImuIntake::kDistrustedRunNs, or kDistrustedIntervals where that is longer.
+// - IMU and epochs may contradict each other, as after one clock has leapt. An epoch that fits the
+//   time of the IMU confirms it. A time that is not confirmed is changed by
+//   EpochQueue::kRunToRestart epochs in a row that are rejected, or late by more than GNSS may be.
+//   A confirmed time is changed by EpochQueue::kRunWithImu such late epochs, as after a leap by
+//   seconds. Late epochs that fit the IMU's time contradict wrong ones that were issued before
+//   them. Everything restarts in the time of the epochs.
+// - An IMU that has lost its time in this way is distrusted until one of its samples is accepted.
+//   It can change the time only where no epoch comes for ImuIntake::kDistrustedRunNs, or for
+//   kDistrustedIntervals where that is longer.
 // - Where epochs have led the time away while the IMU was silent, or before its first sample, a run
 //   of IMU samples so far behind them restarts everything in the time of the IMU.
-// - Where GNSS alone keeps time (no IMU, none yet, or a silent one), an epoch that leaps ahead
-// comes after an
-//   outage or has a wrong stamp. It is held until the next one: if that is later, there was an
-//   outage. So an outage of any length, or an interval other than configured, costs no epoch.
+// - GNSS alone keeps time where there is no IMU, none yet, or a silent one. An epoch that leaps
+//   ahead then comes after an outage or has a wrong stamp. It is held until the next one: if that
+//   is later, there was an outage. So an outage of any length, or an interval other than
+//   configured, costs no epoch.
 // - An odometer increment goes with the first epoch not earlier than its end: OdometerQueue.
 class Sequencer {
  public:

@@ -94,6 +94,13 @@ synthetic::Maneuver slalom(int second) {
   return {.yaw_rate = 0.3 * std::sin(0.4 * second), .acceleration = 1.5 * std::cos(0.5 * second)};
 }
 
+void drive_slalom(int seconds, Drive* drive) {
+  for (int second = 0; second < seconds; ++second) {
+    drive->predict(slalom(second));
+    drive->update();
+  }
+}
+
 }  // namespace
 
 TEST_CASE("twenty degrees of heading error converge in turns, and not on the straight") {
@@ -193,10 +200,7 @@ TEST_CASE("started anew in a turn, the IMU's velocity is the antenna's less the 
 
 TEST_CASE("a heading from outside leaves the antenna and the IMU's errors as they are") {
   Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 8);
-  for (int second = 0; second < 60; ++second) {
-    drive.predict(slalom(second));
-    drive.update();
-  }
+  drive_slalom(60, &drive);
   Ekf& filter = drive.filter();
   const NavState before = filter.state();
   const EkfCovariance P = filter.covariance();
@@ -223,16 +227,15 @@ TEST_CASE("a heading from outside leaves the antenna and the IMU's errors as the
 
 TEST_CASE("without its attitude the filter knows the antenna and the clocks as well as before") {
   Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 8);
-  for (int second = 0; second < 60; ++second) {
-    drive.predict(slalom(second));
-    drive.update();
-  }
+  const bool constants = GENERATE(false, true);  // lever arm and time offset are estimated
+  CAPTURE(constants);
+  if (constants) drive.filter().estimate_constant(kTimeOffset);
+  drive_slalom(60, &drive);
   Ekf& filter = drive.filter();
   const EkfCovariance P = filter.covariance();
   const Vector3d p_antenna = filter.antenna_position_e(), v_antenna = filter.antenna_velocity_e();
   const GpsTime time = filter.state().time;
-  // By how much the antenna moves with each error state, numerically, through the model's
-  // equations.
+  // By how much the antenna moves with each error state.
   const AntennaMotion antenna =
       antenna_motion(filter.state(), filter.body().measured_rate_b, drive.lever_b(), true,
                      filter.filter_state().vehicle, filter.body().acceleration_e);
@@ -242,6 +245,10 @@ TEST_CASE("without its attitude the filter knows the antenna and the clocks as w
   H.block<3, 3>(3, kAttitude) = antenna.d_v_d_attitude;
   H.block<3, 3>(3, kGyroBias) = antenna.d_v_d_gyro_bias;
   H.block<3, 3>(3, kGyroScale) = antenna.d_v_d_gyro_scale;
+  if (constants) {
+    H.block<3, kAntennaConstants>(0, kSize + kLeverArm) = antenna.d_p_d_constants;
+    H.block<3, kAntennaConstants>(3, kSize + kLeverArm) = antenna.d_v_d_constants;
+  }
   const Eigen::MatrixXd expected = H * P * H.transpose();
   filter.forget_attitude();
   CHECK_FALSE(filter.has_attitude());
@@ -326,10 +333,7 @@ TEST_CASE("an attitude that wanders is as much less certain, for as long as it w
 
 TEST_CASE("a hole in the IMU data widens the covariance and the filter comes back") {
   Drive drive(white_error_config(), Vector3d::Zero(), {0.02, 0.02, 0.1}, 4);
-  for (int second = 0; second < 20; ++second) {
-    drive.predict(slalom(second));
-    drive.update();
-  }
+  drive_slalom(20, &drive);
   const EkfCovariance before = drive.filter().covariance();
   for (int second = 20; second < 23; ++second) drive.predict({}, false);
   const EkfCovariance& after = drive.filter().covariance();

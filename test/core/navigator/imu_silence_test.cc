@@ -17,15 +17,16 @@ SyntheticDriveOptions noisy_drive() {
   return with_noise(options, 0.5);
 }
 
-// Without the samples in (from_s, to_s].
-void feed_but(double from_s, double to_s, const SyntheticDrive& drive, Navigator* navigator) {
+// Without the samples in (from_s, to_s], and later ones `late_s` after their time.
+void feed_but(double from_s, double to_s, const SyntheticDrive& drive, Navigator* navigator,
+              double late_s = 0.0) {
   Sequencer& sequencer = navigator->sequencer();
   for (const Ephemeris& ephemeris : drive.ephemerides) sequencer.on_ephemeris(ephemeris);
   std::size_t next = 0;
   for (const RawEpoch& raw : drive.epochs) {
-    for (; next < drive.imu.size() && seconds(drive.imu[next].time) < seconds(raw.time) + 0.06;
-         ++next) {
+    for (; next < drive.imu.size(); ++next) {
       const double t = seconds(drive.imu[next].time);
+      if (t + (t > to_s ? late_s : 0.0) >= seconds(raw.time) + 0.06) break;
       if (t <= from_s || t > to_s) sequencer.on_imu(drive.imu[next]);
     }
     sequencer.on_raw_epoch(raw);
@@ -85,6 +86,24 @@ TEST_CASE("while the IMU is silent each epoch gives an answer, and then the IMU 
   CHECK(silence.largest_sigma_m < 5.0);
   CHECK(silence.worst_after_m < 1.0);
   CHECK(sink.count(EventKind::kDeadlineMiss) == 0);
+}
+
+TEST_CASE("samples that come back late are used from where GNSS alone had got to") {
+  const SyntheticDrive drive = synthetic_drive(noisy_drive());
+  const double late_s = GENERATE(0.5, 1.5, 3.0, 9.0);
+  CAPTURE(late_s);
+  RecordingSink sink;
+  Navigator navigator(drive_navigator_config(drive.options), &sink);
+  feed_but(60.5, 80.5, drive, &navigator, late_s);
+  const Silence silence = judge(sink, drive, 60.5, 80.5);
+  std::printf(
+      "samples %.1f s late: %zu solutions, worst in the silence %.2f m (%.1f sigmas), after it "
+      "%.2f m\n",
+      late_s, sink.solutions.size(), silence.worst_m, silence.worst_sigmas, silence.worst_after_m);
+  CHECK(silence.answers >= 14);
+  CHECK(silence.worst_sigmas < 3.0);
+  CHECK(silence.worst_after_m < 3.0);
+  CHECK(seconds(sink.solutions.back().time) > 140.0 - late_s - 7.0);
 }
 
 TEST_CASE("GNSS that begins before the IMU is answered as aligning") {

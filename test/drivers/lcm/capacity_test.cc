@@ -118,29 +118,25 @@ TEST_CASE("messages without a list are short") {
   for (const int bytes : sizes) CHECK(bytes <= static_cast<int>(wire::kMaxBytesWithoutList));
 }
 
+// Encoded size of a message whose list has so many elements.
+template <typename Message, typename List>
+int encoded_size(List Message::*list, std::size_t elements) {
+  Message message;
+  message.n = static_cast<std::int32_t>(elements);
+  (message.*list).resize(elements);
+  return message.getEncodedSize();
+}
+
 TEST_CASE("messages with lists at full capacity are no longer than their channel allows") {
-  const auto check = [](Channel channel, int bytes) {
+  const std::pair<Channel, int> messages[] = {
+      {Channel::kAntenna, encoded_size(&antenna_t::values_m, kMaxAntennaValues)},
+      {Channel::kOrbitClock, encoded_size(&orbit_clock_t::states, kMaxEphemerisSatellites)},
+      {Channel::kCorrectedStates, encoded_size(&corrected_states_t::states, kMaxCorrectedStates)},
+      {Channel::kGnssEpoch, encoded_size(&gnss_epoch_t::observations, kMaxObservations)},
+      {Channel::kBiases, encoded_size(&biases_t::biases, kMaxBiases)}};
+  for (const auto& [channel, bytes] : messages) {
+    CAPTURE(static_cast<int>(channel));
     CHECK(bytes > 0);
     CHECK(bytes <= static_cast<int>(most_message_bytes(channel)));
-  };
-  antenna_t antenna;
-  antenna.n = static_cast<int>(kMaxAntennaValues);
-  antenna.values_m.resize(kMaxAntennaValues);
-  check(Channel::kAntenna, antenna.getEncodedSize());
-  orbit_clock_t orbits;
-  orbits.n = static_cast<int>(kMaxEphemerisSatellites);
-  orbits.states.resize(kMaxEphemerisSatellites);
-  check(Channel::kOrbitClock, orbits.getEncodedSize());
-  corrected_states_t corrected;
-  corrected.n = static_cast<int>(kMaxCorrectedStates);
-  corrected.states.resize(kMaxCorrectedStates);
-  check(Channel::kCorrectedStates, corrected.getEncodedSize());
-  gnss_epoch_t epoch;
-  epoch.n = static_cast<int>(kMaxObservations);
-  epoch.observations.resize(kMaxObservations);
-  check(Channel::kGnssEpoch, epoch.getEncodedSize());
-  biases_t biases;
-  biases.n = static_cast<int>(kMaxBiases);
-  biases.biases.resize(kMaxBiases);
-  check(Channel::kBiases, biases.getEncodedSize());
+  }
 }

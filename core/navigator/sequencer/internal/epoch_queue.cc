@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/navigator/sequencer/input_validation.h"
+#include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 #include "core/navigator/sequencer/internal/interval.h"
 
 namespace leonav {
@@ -11,6 +12,8 @@ namespace leonav {
 EpochQueue::EpochQueue(double epoch_interval_s)
     : max_ahead_ns_(std::max(kMaxStampAheadNs,
                              interval_in_nanoseconds(kMaxAheadIntervals * epoch_interval_s))),
+      max_imu_offset_ns_(EmptyEpochSchedule::kMaxGnssLatencyNs +
+                         interval_in_nanoseconds(1.5 * epoch_interval_s)),
       run_with_imu_(std::max(
           kRunWithImu,
           static_cast<int>(kImuSilenceNs / interval_in_nanoseconds(epoch_interval_s)) + 2)),
@@ -27,9 +30,10 @@ StampDecision EpochQueue::evaluate(GpsTime time, GpsTime imu_time) {
   const GpsTime reference = imu_runs ? imu_time : std::max(imu_time, newest_time());
   if (!reference.is_set()) return {};
   const std::int64_t ahead_ns = nanoseconds_between(time, reference);
-  if (ahead_ns > max_ahead_ns_ || ahead_ns < -kMaxStampAheadNs) {
+  const bool imu_counts = imu_time.is_set() && confirms_imu_;
+  const bool continues_run = !imu_counts && time_monitor_.run() > 0 && time < newest_time();
+  if (ahead_ns > max_ahead_ns_ || ahead_ns < -kMaxStampAheadNs || continues_run) {
     const bool is_run = time_monitor_.reject(time);
-    const bool imu_counts = imu_time.is_set() && confirms_imu_;
     if (!is_run || (imu_counts && time_monitor_.run() < run_with_imu_)) {
       return {ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards};
     }
@@ -50,7 +54,6 @@ bool EpochQueue::is_known(GpsTime time) const {
 }
 
 std::size_t EpochQueue::insert(const RawEpoch& epoch) {
-  last_accepted_time_ = epoch.time;
   const std::size_t left_out = copy_valid_observations(epoch, pending_[count_].get());
   for (std::size_t i = count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
     std::swap(pending_[i], pending_[i - 1]);
@@ -68,16 +71,23 @@ void EpochQueue::remove_oldest() {
 bool EpochQueue::is_overdue() const {
   if (count_ > kMaxPendingEpochs) return true;
   if (count_ <= kMinPending) return false;
-  return nanoseconds_between(last_accepted_time_, pending_[0]->time) > kMaxImuLatencyNs;
+  const GpsTime newest = pending_[count_ - 1]->time;
+  return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
+}
+
+bool EpochQueue::are_apart(GpsTime imu_time, GpsTime epoch) const {
+  return std::abs(nanoseconds_between(imu_time, epoch)) > max_imu_offset_ns_;
 }
 
 bool EpochQueue::add_late(GpsTime time, GpsTime imu_time) {
-  if (imu_time.is_set() && confirms_imu_) {
-    if (nanoseconds_between(imu_time, time) <= kLateRunNs) return false;
-    return late_monitor_.reject(time) && late_monitor_.run() >= run_with_imu_ &&
-           late_monitor_.run_ns() > kImuSilenceNs;
-  }
-  return time_monitor_.reject(time) && time_monitor_.run_ns() > kLateRunNs;
+  const bool against_imu = imu_time.is_set() && are_apart(imu_time, time);
+  // Else GNSS is slow, and only empty epochs have been issued.
+  const bool against_epochs = time <= last_raw_time_;
+  if (imu_time.is_set() && !against_imu && !against_epochs) return false;
+  const bool is_run = late_monitor_.reject(time);
+  if (against_imu && confirms_imu_)
+    return late_monitor_.run() >= run_with_imu_ && late_monitor_.run_ns() > kImuSilenceNs;
+  return is_run && late_monitor_.run_ns() > kLateRunNs;
 }
 
 GpsTime EpochQueue::newest_time() const {
@@ -101,7 +111,7 @@ void EpochQueue::set_issued(GpsTime time, bool empty) {
 }
 
 void EpochQueue::clear() {
-  last_time_ = last_raw_time_ = last_accepted_time_ = GpsTime();
+  last_time_ = last_raw_time_ = GpsTime();
   last_is_empty_ = true;
   imu_time_at_last_ = GpsTime();
   count_ = 0;

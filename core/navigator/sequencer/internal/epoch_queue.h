@@ -24,17 +24,22 @@ class EpochQueue {
   // inertial answer goes on: at least so many epochs, and more than such a silence has.
   static constexpr int kRunWithImu = 12;
   static constexpr std::int64_t kImuSilenceNs = 10'000'000'000;
-  // The oldest epoch is overdue if more than kMinPending epochs wait and the one accepted last is
-  // more than kMaxImuLatencyNs later. Those with wrong stamps may be far ahead of both.
+  // The oldest epoch is overdue if more than kMinPending epochs wait and the newest is more than
+  // kMaxImuLatencyNs later.
   static constexpr std::size_t kMinPending = 4;
-  static constexpr std::int64_t kLateRunNs = 3'000'000'000;  // more than GNSS may be late
   static constexpr std::int64_t kMaxImuLatencyNs = 2'000'000'000;
+  // How long a run of late epochs must be before it contradicts the time they are late in.
+  static constexpr std::int64_t kLateRunNs = 3'000'000'000;
 
   explicit EpochQueue(double epoch_interval_s);
 
+  // Returns by how much IMU and newest epoch differ at most while both are right: GNSS may be late,
+  // and the next epoch is an interval away.
+  std::int64_t max_imu_offset_ns() const { return max_imu_offset_ns_; }
   // Decides whether the stamp of an epoch fits. `imu_time` is the end of the last accepted IMU
   // sample; may be unset. A late epoch passes here; is_late() finds it. While no epoch has
-  // confirmed the IMU's time, kRunToRestart epochs suffice to contradict it.
+  // confirmed the IMU's time, kRunToRestart epochs suffice to contradict it: those that are
+  // rejected, and then those that are older than the newest one, although no longer by too much.
   StampDecision evaluate(GpsTime time, GpsTime imu_time);
   // Returns how far an epoch may lie ahead of everything seen, ns.
   std::int64_t max_ahead_ns() const { return max_ahead_ns_; }
@@ -60,17 +65,16 @@ class EpochQueue {
   // Returns whether the oldest epoch has waited long enough: its IMU samples are late, or have
   // stopped.
   bool is_overdue() const;
-  // Adds an epoch that is late to the run of those that contradict the IMU, and returns whether
-  // they are enough: so many, and over so long, that no latency explains it. `imu_time`, unset
-  // where it does not keep the time, that an epoch has confirmed is contradicted by no fewer than
-  // would change the time while it is silent, and only if it is further ahead than GNSS may be
-  // late: else it is wrong epochs that were ahead.
+  // Adds a late epoch to the run of late ones, and returns whether these show that the time in
+  // which they are late is wrong. `imu_time` is unset where the IMU does not keep the time. Epochs
+  // from which the IMU is too far contradict it: if an epoch has confirmed its time, as many as
+  // change the time while it is silent. Those that fit it contradict wrong epochs, later ones,
+  // which were issued before.
   bool add_late(GpsTime time, GpsTime imu_time);
+  // Returns whether an IMU sample and an epoch are further apart than max_imu_offset_ns().
+  bool are_apart(GpsTime imu_time, GpsTime epoch) const;
   // Returns the time of the newest epoch waiting, else of the last one issued; may be unset.
   GpsTime newest_time() const;
-
-  // Returns the time of the epoch accepted last, which may be older than the newest; may be unset.
-  GpsTime last_accepted_time() const { return last_accepted_time_; }
 
   // Holds one epoch apart until the next input confirms its stamp.
   void hold(const RawEpoch& epoch);
@@ -94,7 +98,7 @@ class EpochQueue {
  private:
   bool is_known(GpsTime time) const;
 
-  std::int64_t max_ahead_ns_;
+  std::int64_t max_ahead_ns_, max_imu_offset_ns_;
   int run_with_imu_;
   TimeStepMonitor time_monitor_;
   TimeStepMonitor late_monitor_;                                          // of late epochs alone
@@ -107,7 +111,6 @@ class EpochQueue {
   GpsTime last_raw_time_;     // of the last issued epoch that was not empty
   bool last_is_empty_ = true;
   bool confirms_imu_ = false;
-  GpsTime last_accepted_time_;
 };
 
 }  // namespace leonav

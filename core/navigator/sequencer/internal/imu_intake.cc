@@ -26,9 +26,7 @@ ImuIntake::ImuIntake(const NavigatorConfig& config)
       offset_ns_(rounded_nanoseconds(config.imu_time_offset_s)),
       distrusted_run_ns_(std::max(
           kDistrustedRunNs,
-          interval_in_nanoseconds(kDistrustedIntervals * config.realtime.epoch_interval_s))),
-      distrusted_offset_ns_(kDistrustedOffsetNs +
-                            interval_in_nanoseconds(1.5 * config.realtime.epoch_interval_s)) {}
+          interval_in_nanoseconds(kDistrustedIntervals * config.realtime.epoch_interval_s))) {}
 
 ImuSample ImuIntake::shift_stamp(const ImuSample& received) const {
   ImuSample sample = received;
@@ -53,11 +51,12 @@ bool ImuIntake::leaps(const ImuSample& sample) const {
 std::optional<ImuSample> ImuIntake::release_held() { return std::exchange(held_, std::nullopt); }
 
 StampDecision ImuIntake::evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch,
-                                        std::int64_t max_epoch_ahead_ns) {
+                                        std::int64_t max_epoch_ahead_ns,
+                                        std::int64_t max_offset_ns) {
   const GpsTime last_stamp = timeline_.last_stamp();
   if (last_stamp.is_set() && sample.time == last_stamp) return {InputFault::kDuplicate};
-  const std::int64_t behind_ns = distrusted_ ? distrusted_offset_ns_ : max_epoch_ahead_ns;
-  const std::int64_t ahead_ns = distrusted_ ? distrusted_offset_ns_ : kMaxStampAheadNs;
+  const std::int64_t behind_ns = distrusted_ ? max_offset_ns : max_epoch_ahead_ns;
+  const std::int64_t ahead_ns = distrusted_ ? max_offset_ns : kMaxStampAheadNs;
   const bool behind_others =
       is_behind(sample, newest_epoch, behind_ns) || is_behind(sample, time_, kMaxStampAheadNs);
   const bool backwards = behind_others || !timeline_.follows(sample);

@@ -27,10 +27,8 @@ class ImuIntake {
   static constexpr int kRunToRestart = 20;  // samples that must agree on a new time
   // A distrusted IMU's samples must agree for so long without an epoch, or for so many epoch
   // intervals where that is longer.
-  static constexpr std::int64_t kDistrustedRunNs = 5'000'000'000;
+  static constexpr std::int64_t kDistrustedRunNs = 10'000'000'000;
   static constexpr double kDistrustedIntervals = 2.5;
-  // Its first accepted sample is not further from the newest epoch than so much and 1.5 intervals.
-  static constexpr std::int64_t kDistrustedOffsetNs = 2'000'000'000;
 
   explicit ImuIntake(const NavigatorConfig& config);
 
@@ -48,9 +46,10 @@ class ImuIntake {
   std::optional<ImuSample> release_held();
 
   // Decides whether the stamp fits the stream so far and the epochs. `newest_epoch` may be unset;
-  // `max_epoch_ahead_ns` is how far an epoch may lie ahead of the sample.
+  // `max_epoch_ahead_ns` is how far an epoch may lie ahead of the sample, and `max_offset_ns` how
+  // far a distrusted IMU may be from it either way.
   StampDecision evaluate_stamp(const ImuSample& sample, GpsTime newest_epoch,
-                               std::int64_t max_epoch_ahead_ns);
+                               std::int64_t max_epoch_ahead_ns, std::int64_t max_offset_ns);
   // Moves the sample to its time on the timeline, unless the timeline refuses it.
   ImuTimeline::Placement lay_on_timeline(ImuSample* sample) {
     return timeline_.place(time_, sample);
@@ -68,7 +67,6 @@ class ImuIntake {
   // samples is accepted, it can change the time only where epochs have stopped; tell it of each
   // accepted epoch by add_epoch().
   void distrust() { distrusted_ = true; }
-  bool is_distrusted() const { return distrusted_; }
   void add_epoch() {
     if (distrusted_) time_monitor_.clear();
   }
@@ -80,7 +78,7 @@ class ImuIntake {
   FrozenImuMonitor frozen_;  // outlives a time step
   ImuTimeline timeline_;
   TimeStepMonitor time_monitor_{kRunToRestart, kMaxStepNs};
-  std::int64_t distrusted_run_ns_, distrusted_offset_ns_;
+  std::int64_t distrusted_run_ns_;
   bool distrusted_ = false;
   std::optional<ImuSample> held_;
   GpsTime time_;

@@ -10,14 +10,14 @@ namespace leonav {
 // Of epochs that are later than its last accepted sample, with no sample between them, more than
 // kMinEpochs show that the IMU is silent, the newest more than kMinLengthNs after the first. Of
 // epochs that come rarely two suffice, the newest more than kLongNs after that sample. The IMU is
-// silent until a sample is accepted. One whose samples come late, but come, is not silent.
+// silent until a sample is accepted. Samples that come too late for the epochs issued do not count.
 class ImuSilence {
  public:
   static constexpr std::size_t kMinEpochs = 4;
   static constexpr std::int64_t kMinLengthNs = 2'000'000'000;
   static constexpr std::int64_t kLongNs = 10'000'000'000;
 
-  // Ends the silence, because a sample was accepted or time itself has changed.
+  // Ends the silence, because a sample came in time or time itself has changed.
   void clear() {
     epochs_ = 0;
     lasts_ = false;

@@ -85,8 +85,9 @@ inline constexpr ResetPlan kHeadingReset = {.filter = FilterReset::kRestart,
                                             .clears_external_heading = true,
                                             .counts_as_gnss_epoch = true};
 
-// Reset after a gap in the IMU samples in which the vehicle may have turned anywhere. Position,
-// velocity, clocks and ambiguities go on, and the alignment starts anew.
+// Reset after a gap in the IMU samples in which the vehicle may have turned in any direction. The
+// filter keeps position, velocity, clocks and ambiguities. It loses the attitude, which must be
+// aligned again.
 inline constexpr ResetPlan kAttitudeReset = {.filter = FilterReset::kForgetAttitude,
                                              .keeps_vehicle_constants = true,
                                              .carriers = CarrierReset::kPosition,
