@@ -1,5 +1,6 @@
 #include "drivers/oem7/rangecmp4.h"
 
+#include <array>
 #include <bit>
 
 #include "drivers/binary/little_endian.h"
@@ -26,18 +27,7 @@ double least_lock_s(std::uint64_t indicator) {
   return indicator == 0 ? 0.0 : static_cast<double>(std::int64_t{8} << indicator) / 1000.0;
 }
 
-std::size_t index_of_used(System system) {
-  return system == System::kGps ? 0 : system == System::kGalileo ? 1 : 2;
-}
-
 }  // namespace
-
-RangecmpFour::RangecmpFour() : references_(kSystems * kSatellites * kSignals) {}
-
-RangecmpFour::Reference& RangecmpFour::reference_of(System system, std::uint32_t number,
-                                                    std::uint32_t signal) {
-  return references_[(index_of_used(system) * kSatellites + number - 1) * kSignals + signal];
-}
 
 RangeStatus RangecmpFour::read(std::span<const std::uint8_t> payload, GpsTime time,
                                std::vector<RangeMeasurement>* measurements) {
@@ -103,7 +93,7 @@ RangeMeasurement RangecmpFour::read_signal(std::uint32_t signal, GpsTime time, S
     values = read_reference(*satellite, bits);
     if (satellite->is_first_signal) satellite->primary = values;
     if (m.system && !bits->overrun()) {
-      reference_of(*m.system, m.number, signal) = {time, satellite->block, values};
+      references_[{*m.system, m.number, signal}] = {time, satellite->block, values};
     }
   }
   if (!m.code) return m;
@@ -139,7 +129,8 @@ RangecmpFour::Signal RangecmpFour::read_difference(const Satellite& satellite, s
   values.rate_m_s = scaled(bits, satellite.is_first_signal ? 18 : 14, kRateUnit_m_s);
   const std::optional<System> system = system_from_compressed(satellite.system);
   if (!system) return values;
-  const Reference& reference = reference_of(*system, satellite.number, signal);
+  const auto found = references_.find({*system, satellite.number, signal});
+  const Reference reference = found == references_.end() ? Reference{} : found->second;
   const std::int64_t since_second_ns = time.nanoseconds() % kNanosecondsPerSecond;
   if (!reference.time.is_set() || reference.block != satellite.block ||
       nanoseconds_between(time, reference.time) != since_second_ns) {

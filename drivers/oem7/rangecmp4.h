@@ -1,9 +1,10 @@
 // This unit reads RANGECMP4 (2050). Source: OEM7 manual, RANGECMP4 and "Example of Bit Parsing a
 // RANGECMP4 Log".
 #pragma once
-#include <array>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/base/gps_time.h"
@@ -16,8 +17,6 @@ namespace leonav {
 // by what differs from the reference of that second, which is therefore kept.
 class RangecmpFour {
  public:
-  RangecmpFour();
-
   // Replaces `measurements` by those of a log's payload, all systems in its order. `time` is that
   // of the log's header.
   RangeStatus read(std::span<const std::uint8_t> payload, GpsTime time,
@@ -26,7 +25,7 @@ class RangecmpFour {
   std::uint64_t without_reference() const { return without_reference_; }
 
  private:
-  static constexpr std::size_t kSystems = 3, kSatellites = 64, kSignals = 16;
+  static constexpr std::size_t kSatellites = 64, kSignals = 16;
 
   // One signal in metres and m/s; NaN where the log marks a value as not valid.
   struct Signal {
@@ -55,9 +54,10 @@ class RangecmpFour {
   static Signal read_reference(const Satellite& satellite, LowBitReader* bits);
   Signal read_difference(const Satellite& satellite, std::uint32_t signal, GpsTime time,
                          LowBitReader* bits);
-  Reference& reference_of(System system, std::uint32_t number, std::uint32_t signal);
 
-  std::vector<Reference> references_;
+  // By system, and number and signal of the log.
+  using Key = std::tuple<System, std::uint32_t, std::uint32_t>;
+  std::map<Key, Reference> references_;
   std::uint64_t without_reference_ = 0;
 };
 

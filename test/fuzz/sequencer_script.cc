@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kUs = 1'000;
 // A script ends with the step that reaches this many inputs: longer ones take time and tell nothing
 // that shorter ones do not.
-constexpr std::int64_t kMostInputs = 2500;
+constexpr std::int64_t kMostInputs = 2500, kMostInputsOfShort = 800;
 constexpr std::size_t kMostSteps = 200;
 
 // Amounts of time around which the rules of the Sequencer turn.
@@ -118,16 +118,17 @@ ScriptStep step_from(ByteScript* bytes) {
 }
 
 // About how many samples, epochs and increments a step is.
-std::int64_t inputs_of(const ScriptStep& step) {
-  if (step.action == ScriptAction::kDrive) return step.count * 250;
+std::int64_t inputs_of(const ScriptStep& step, std::int64_t sample_interval_ns) {
+  if (step.action == ScriptAction::kDrive) return step.count * (kSecond / sample_interval_ns + 50);
   return step.action == ScriptAction::kTwoStreams ? 2 * step.count : step.count;
 }
 
 // Feeds the steps one after the other.
 class Player {
  public:
-  Player(const NavigatorConfig& config, Sequencer* sequencer)
-      : interval_ns_(static_cast<std::int64_t>(config.realtime.epoch_interval_s * 1e9)),
+  Player(const SequencerScript& script, Sequencer* sequencer)
+      : interval_ns_(static_cast<std::int64_t>(script.config.realtime.epoch_interval_s * 1e9)),
+        sample_interval_ns_(script.sample_interval_ns),
         sequencer_(sequencer) {}
 
   void play(const ScriptStep& step);
@@ -159,7 +160,7 @@ class Player {
   static constexpr std::int64_t kLongestWay = 5 * 365 * 86'400 * kSecond;
   const GpsTime begin_ = GpsTime::from_week_and_tow(2200, 100'000.0);
   GpsTime now_ = begin_;
-  std::int64_t interval_ns_;
+  std::int64_t interval_ns_, sample_interval_ns_;  // of epochs, of samples
   Sequencer* sequencer_;
   ImuSample last_sample_;
   RawEpoch last_epoch_;
@@ -187,10 +188,10 @@ void Player::wait(std::int64_t time_ns) {
 void Player::drive(std::int64_t seconds) {
   for (const GpsTime end = now_.plus_nanoseconds(seconds * kSecond); now_ < end;) {
     const std::int64_t before = now_.nanoseconds() / interval_ns_;
-    now_ = now_.plus_nanoseconds(5 * kMs);
-    sample(sample_until(now_));
-    if (now_.nanoseconds() / (20 * kMs) != (now_.nanoseconds() - 5 * kMs) / (20 * kMs))
-      odometer(now_, 20 * kMs);
+    const std::int64_t odometer_before = now_.nanoseconds() / (20 * kMs);
+    now_ = now_.plus_nanoseconds(sample_interval_ns_);
+    sample(sample_until(now_, sample_interval_ns_));
+    if (now_.nanoseconds() / (20 * kMs) != odometer_before) odometer(now_, 20 * kMs);
     if (now_.nanoseconds() / interval_ns_ != before) epoch(epoch_of(now_, 5));
   }
 }
@@ -198,14 +199,15 @@ void Player::drive(std::int64_t seconds) {
 // kTwoStreams and kJitter.
 void Player::good_samples(const ScriptStep& step) {
   for (std::int64_t k = 0; k < step.count; ++k) {
-    now_ = now_.plus_nanoseconds(5 * kMs);
+    now_ = now_.plus_nanoseconds(sample_interval_ns_);
     noise_ = noise_ * 1664525U + 1013904223U;
     const std::int64_t part = static_cast<std::int64_t>(noise_ >> 16) - 32'768;
     if (step.action == ScriptAction::kJitter) {
-      sample(sample_until(now_.plus_nanoseconds(step.offset_ns / 32'768 * part)));
+      sample(
+          sample_until(now_.plus_nanoseconds(step.offset_ns / 32'768 * part), sample_interval_ns_));
     } else {
-      sample(sample_until(now_));
-      sample(sample_until(now_.plus_nanoseconds(step.offset_ns)));
+      sample(sample_until(now_, sample_interval_ns_));
+      sample(sample_until(now_.plus_nanoseconds(step.offset_ns), sample_interval_ns_));
     }
   }
 }
@@ -440,26 +442,29 @@ constexpr std::array<const char*, kScriptActions> kNames = {
 
 }  // namespace
 
-SequencerScript script_from(FuzzBytes bytes) {
+SequencerScript script_from(FuzzBytes bytes, bool is_whole) {
   ByteScript rest(bytes);
   SequencerScript script;
   script.config = config_from(&rest);
+  script.sample_interval_ns = is_whole ? 5 * kMs : 20 * kMs;
+  const std::int64_t most_inputs = is_whole ? kMostInputs : kMostInputsOfShort;
   for (std::int64_t inputs = 0;
-       !rest.empty() && script.steps.size() < kMostSteps && inputs < kMostInputs;) {
+       !rest.empty() && script.steps.size() < kMostSteps && inputs < most_inputs;) {
     script.steps.push_back(step_from(&rest));
-    inputs += inputs_of(script.steps.back());
+    inputs += inputs_of(script.steps.back(), script.sample_interval_ns);
   }
   return script;
 }
 
 std::string text_of(const SequencerScript& script) {
   const NavigatorConfig& c = script.config;
-  std::string text =
-      format("epochs each %g s, latency %g s, IMU offset %g s, odometer %d, %s, %s\n",
-             c.realtime.epoch_interval_s, c.realtime.gnss_latency_allowance_s, c.imu_time_offset_s,
-             c.vehicle.motion.constraints.odometer,
-             c.motion == MotionModel::kInertial ? "inertial" : "no IMU",
-             c.estimator == Estimator::kSmoother ? "smoother" : "filter");
+  std::string text = format(
+      "epochs each %g s, samples each %g s, latency %g s, IMU offset %g s, odometer %d, %s, %s\n",
+      c.realtime.epoch_interval_s, static_cast<double>(script.sample_interval_ns) * 1e-9,
+      c.realtime.gnss_latency_allowance_s, c.imu_time_offset_s,
+      c.vehicle.motion.constraints.odometer,
+      c.motion == MotionModel::kInertial ? "inertial" : "no IMU",
+      c.estimator == Estimator::kSmoother ? "smoother" : "filter");
   for (const ScriptStep& s : script.steps) {
     text += format("%s: %lld from %+.9f s each %+.9f s, interval %.9f s, choice %d\n",
                    kNames[static_cast<std::size_t>(s.action)], static_cast<long long>(s.count),
@@ -470,7 +475,7 @@ std::string text_of(const SequencerScript& script) {
 }
 
 GpsTime play(const SequencerScript& script, Sequencer* sequencer) {
-  Player player(script.config, sequencer);
+  Player player(script, sequencer);
   for (const ScriptStep& step : script.steps) player.play(step);
   return player.now();
 }

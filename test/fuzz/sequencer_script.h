@@ -43,11 +43,13 @@ struct ScriptStep {
 
 struct SequencerScript {
   NavigatorConfig config;
+  std::int64_t sample_interval_ns = 0;  // of good input
   std::vector<ScriptStep> steps;
 };
 
-// The first two bytes choose the configuration; all bytes make a script.
-SequencerScript script_from(FuzzBytes bytes);
+// The first two bytes choose the configuration; all bytes make a script. `is_whole`: good samples
+// come at 200 Hz, and it has up to some 2,500 inputs; otherwise they come at 50 Hz, and it has 800.
+SequencerScript script_from(FuzzBytes bytes, bool is_whole = true);
 std::string text_of(const SequencerScript& script);
 
 // Feeds the script and returns the true time at its end.

@@ -13,7 +13,7 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
       stages_(stages),
       inertial_(config.motion == MotionModel::kInertial),
       imu_(config),
-      epochs_(config.realtime.epoch_interval_s),
+      stamps_(config.realtime.epoch_interval_s),
       empty_epochs_(config.realtime),
       odometer_(inertial_ && config.vehicle.motion.constraints.odometer),
       work_(std::make_unique<GnssWork>()) {}
@@ -52,19 +52,18 @@ void Sequencer::monitor_conventions(const ImuSample& sample, InputFault fault) {
 void Sequencer::accept_imu(const ImuSample& received) {
   ImuSample sample = received;
   const StampDecision stamp = imu_.evaluate_stamp(
-      sample, epochs_.newest_time(), epochs_.max_ahead_ns(), epochs_.max_imu_offset_ns());
+      sample, epochs_.newest_time(), stamps_.max_ahead_ns(), stamps_.max_imu_offset_ns());
   if (stamp.fault != InputFault::kNone) return reject_imu(stamp.fault);
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
   const bool comes_too_late =
-      sample.time < epochs_.last_time() && epochs_.are_apart(sample.time, epochs_.last_time());
+      sample.time < epochs_.last_time() && stamps_.are_apart(sample.time, epochs_.last_time());
   if (comes_too_late && imu_silence_.lasts()) return reject_imu(InputFault::kTimeBackwards);
   if (!lay_on_timeline(&sample)) return reject_imu(InputFault::kTimeBackwards);
 
   ++counters_.imu;
   imu_.accept(sample);
   if (!comes_too_late) imu_silence_.clear();
-  // The IMU keeps time: GNSS alone cannot change it, once an epoch has confirmed it.
-  if (epochs_.confirms_imu()) epochs_.clear_rejected_run();
+  stamps_.add_imu_sample();
   imu_.rotate_to_body(&sample);
   stages_->push_inertial(sample);
   append_to_block(sample);
@@ -89,6 +88,7 @@ void Sequencer::start_new_time(double jump_s) {
   imu_.clear();
   imu_silence_.clear();
   epochs_.clear();
+  stamps_.clear();
   imu_since_epoch_.clear();
   odometer_.clear();
   refused_imu_ = RefusedImuMonitor();
@@ -114,7 +114,7 @@ void Sequencer::on_raw_epoch(const RawEpoch& epoch) {
 
 // Holds an epoch that follows an outage or has a wrong stamp, until the next one decides which.
 bool Sequencer::hold(const RawEpoch& epoch) {
-  if (imu_keeps_time() || !epochs_.leaps(epoch.time)) return false;
+  if (imu_keeps_time() || !stamps_.leaps(epoch.time, epochs_.newest_time())) return false;
   epochs_.hold(epoch);
   return true;
 }
@@ -129,21 +129,21 @@ void Sequencer::resolve_held_epoch(GpsTime next) {
 }
 
 void Sequencer::accept_epoch(const RawEpoch& epoch) {
-  const StampDecision stamp =
-      epochs_.evaluate(epoch.time, imu_keeps_time() ? imu_.time() : GpsTime());
-  if (stamp.starts_new_time)
-    follow_epochs(stamp.jump_s, imu_.time().is_set() && !epochs_.confirms_imu());
+  const GpsTime imu_time = imu_keeps_time() ? imu_.time() : GpsTime();
+  const StampDecision stamp = stamps_.evaluate(epoch.time, imu_time, epochs_.newest_time());
   if (stamp.fault != InputFault::kNone) return reject_epoch(stamp.fault);
-  if (epochs_.is_late(epoch.time)) {
-    const GpsTime imu_time = imu_keeps_time() ? imu_.time() : GpsTime();
-    if (!epochs_.add_late(epoch.time, imu_time)) return drop_late(epoch.time);
-    const bool against_imu = imu_.time().is_set() && epochs_.are_apart(imu_.time(), epoch.time);
+  if (stamp.starts_new_time) {
+    follow_epochs(stamp.jump_s, imu_.time().is_set() && !stamps_.confirms_imu());
+  } else if (epochs_.is_known(epoch.time)) {
+    return reject_epoch(InputFault::kDuplicate);
+  } else if (epochs_.is_late(epoch.time)) {
+    if (!stamps_.add_late(epoch.time, imu_time, epochs_.last_raw_time()))
+      return drop_late(epoch.time);
+    const bool against_imu = imu_.time().is_set() && stamps_.are_apart(imu_.time(), epoch.time);
     follow_epochs(seconds_between(epoch.time, epochs_.last_time()), against_imu);
   }
-  epochs_.clear_rejected_run();
-  epochs_.clear_late_run();
   imu_.add_epoch();
-  if (imu_keeps_time()) epochs_.confirm_imu();
+  stamps_.add_good(imu_keeps_time());
   ++counters_.epochs;
   queue_epoch(epoch);
   issue_ready_epochs();

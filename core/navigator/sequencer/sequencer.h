@@ -12,6 +12,7 @@
 #include "core/navigator/sequencer/internal/command_limit.h"
 #include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 #include "core/navigator/sequencer/internal/epoch_queue.h"
+#include "core/navigator/sequencer/internal/epoch_stamps.h"
 #include "core/navigator/sequencer/internal/imu_block_cutter.h"
 #include "core/navigator/sequencer/internal/imu_intake.h"
 #include "core/navigator/sequencer/internal/imu_silence.h"
@@ -71,11 +72,11 @@ enum class SequencerCapacity : std::uint8_t {
 //   intervals where those are longer. While IMU samples arrive between epochs, GNSS does not change
 //   the time: "ahead" is counted from the IMU alone. Where they do not, a run of epochs changes the
 //   time only after more of them than the IMU may miss without an end of the answer
-//   (EpochQueue::kRunWithImu): a burst of wrong stamps between two samples costs nothing.
+//   (EpochStamps::kRunWithImu): a burst of wrong stamps between two samples costs nothing.
 // - IMU and epochs may contradict each other, as after one clock has leapt. An epoch that fits the
 //   time of the IMU confirms it. A time that is not confirmed is changed by
-//   EpochQueue::kRunToRestart epochs in a row that are rejected, or late by more than GNSS may be.
-//   A confirmed time is changed by EpochQueue::kRunWithImu such late epochs, as after a leap by
+//   EpochStamps::kRunToRestart epochs in a row that are rejected, or late by more than GNSS may be.
+//   A confirmed time is changed by EpochStamps::kRunWithImu such late epochs, as after a leap by
 //   seconds. Late epochs that fit the IMU's time contradict wrong ones that were issued before
 //   them. Everything restarts in the time of the epochs.
 // - An IMU that has lost its time in this way is distrusted until one of its samples is accepted.
@@ -177,6 +178,7 @@ class Sequencer {
   ImuIntake imu_;
   ImuSilence imu_silence_;
   ImuBlockCutter imu_since_epoch_;
+  EpochStamps stamps_;
   EpochQueue epochs_;
   EmptyEpochSchedule empty_epochs_;
   OdometerQueue odometer_;

@@ -47,7 +47,7 @@ TEST_CASE("a burst of epochs of another time between two IMU samples costs nothi
       CAPTURE(ahead_ms, interval_s);
       NavigatorConfig config;
       config.realtime.epoch_interval_s = interval_s;
-      const int burst = interval_s < 1.0 ? 100 : EpochQueue::kRunWithImu - 1;
+      const int burst = interval_s < 1.0 ? 100 : EpochStamps::kRunWithImu - 1;
       MillisecondRig rig(config);
       rig.drive(5);
       for (int k = 0; k < burst; ++k)
@@ -68,7 +68,7 @@ TEST_CASE("GNSS that goes on in another time while the IMU stays silent is follo
     for (int k = 0; k < 40; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
     REQUIRE(rig.stages.commands.size() == 1);
     CHECK(rig.stages.commands[0].cause == ResetCause::kTimeBase);
-    CHECK(rig.rejected() == EpochQueue::kRunWithImu - 1);
+    CHECK(rig.rejected() == EpochStamps::kRunWithImu - 1);
   }
 }
 

@@ -101,7 +101,7 @@ TEST_CASE("without an IMU a clock set back costs a short run, whatever the inter
     rig.epochs(0.0, interval_s, 50);
     rig.epochs(-3'600.0, interval_s, 50);
     // And the one that was held, if any: nothing speaks for it.
-    CHECK(rig.rejected() <= EpochQueue::kRunToRestart);
+    CHECK(rig.rejected() <= EpochStamps::kRunToRestart);
     CHECK(rig.stages.commands.size() == 1);
     CHECK(rig.last_s() > -3'600.0 + 47 * interval_s);
   }
@@ -113,7 +113,7 @@ TEST_CASE("without an IMU a clock set back by seconds costs five epochs, refused
   SecondRig rig(gnss_only(1.0));
   rig.epochs(0.0, 1.0, 50);
   rig.epochs(50.0 - back_s, 1.0, 10);
-  CHECK(rig.rejected() + rig.sequencer.counters().late_epochs <= EpochQueue::kRunToRestart);
+  CHECK(rig.rejected() + rig.sequencer.counters().late_epochs <= EpochStamps::kRunToRestart);
   CHECK(rig.last_s() == Approx(60.0 - back_s).margin(1.0));
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("stamps in UTC at first, leap seconds later: eighteen seconds either w
     alone.epochs(30.0, 1.0, 60);
     CHECK(alone.last_s() == Approx(89.0));
     // Forward costs nothing; back, the clock has to be believed first.
-    CHECK(alone.stages.blocks.size() >= 90 - EpochQueue::kRunToRestart);
+    CHECK(alone.stages.blocks.size() >= 90 - EpochStamps::kRunToRestart);
 
     SecondRig with_imu{NavigatorConfig{}};
     with_imu.drive(0.0, 30.0);
@@ -151,9 +151,9 @@ TEST_CASE("power off for a minute: both streams are back after a tenth of a seco
   slow_imu.drive(0.0, 10.0);
   slow_imu.epochs(70.0, 1.0, 20);
   slow_imu.drive(90.0, 100.0);
-  CHECK(slow_imu.rejected() == EpochQueue::kRunWithImu - 1);
+  CHECK(slow_imu.rejected() == EpochStamps::kRunWithImu - 1);
   CHECK(slow_imu.last_s() == Approx(100.0));
-  CHECK(slow_imu.sequencer.counters().epochs == 40 - (EpochQueue::kRunWithImu - 1));
+  CHECK(slow_imu.sequencer.counters().epochs == 40 - (EpochStamps::kRunWithImu - 1));
 }
 
 TEST_CASE("an IMU that starts late takes over the time GNSS has kept") {
