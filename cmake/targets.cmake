@@ -45,7 +45,7 @@ function(leonav_library target folder)
     leonav_precompile(${target} library ${folder})
     # libFuzzer is told of what formats compare bytes with. What the others compare are numbers, of which it learns nothing,
     # and texts, by functions of the library that tell it anyway; telling takes up to half of the time.
-    if(LEONAV_FUZZ AND NOT folder MATCHES "^drivers/" OR folder MATCHES "^drivers/(text|yaml)$")
+    if(LEONAV_FUZZ AND (NOT folder MATCHES "^drivers/" OR folder MATCHES "^drivers/(text|yaml)$"))
       target_compile_options(${target} PRIVATE -fno-sanitize-coverage=trace-cmp)
     endif()
   endif()

@@ -31,7 +31,7 @@ std::span<const Finding> InputMonitor::look(double now_s) {
   look_at_shares();
   if (expects_imu_)
     look_at_stream(counters_->accepted_imu, now_s, Channel::kImu, HealthReason::kNoImu, &imu_);
-  if (!imu_.used.is_late()) without_imu_before_ = counters_->epochs_without_imu.get();
+  if (!imu_.used.is_late()) epochs_without_imu_at_last_use_ = counters_->epochs_without_imu.get();
   look_at_stream(counters_->accepted_epochs, now_s, Channel::kGnssEpoch, HealthReason::kNoGnss,
                  &gnss_);
   if (uses_odometer_ && counters_->accepted_odometer.get() > 0)
@@ -79,18 +79,19 @@ void InputMonitor::look_at_stream(const Gauge& accepted, double now_s, Channel c
 std::string_view InputMonitor::why_no_epoch(bool none_since_start) {
   const bool had_imu = counters_->accepted_imu.get() > 0;
   // Epochs wait for a silent IMU for some seconds, and then no longer.
-  const bool wait_for_imu =
-      expects_imu_ && counters_->epochs_without_imu.get() == without_imu_before_;
+  const bool epochs_wait_for_imu =
+      expects_imu_ && counters_->epochs_without_imu.get() == epochs_without_imu_at_last_use_;
   if (counters_->received[index_of(Channel::kGnssEpoch)].get() == 0)
     return "no GNSS has come: look at its sender and lcm.url";
   if (counters_->accepted_epochs.get() == 0) return with_clocks("all GNSS epochs are rejected");
-  if (wait_for_imu && counters_->received[index_of(Channel::kImu)].get() == 0)
+  if (epochs_wait_for_imu && counters_->received[index_of(Channel::kImu)].get() == 0)
     return "no IMU sample has come: look at its sender and lcm.url";
-  if (wait_for_imu && !had_imu) {
+  if (epochs_wait_for_imu && !had_imu) {
     with_fault("all IMU samples are rejected", Channel::kImu);
     return detail_ += ": look at their sender";
   }
-  if (wait_for_imu && lacks_imu()) return "no IMU sample is used any more: look at its sender";
+  if (epochs_wait_for_imu && lacks_imu())
+    return "no IMU sample is used any more: look at its sender";
   if (!gnss_.used.is_late()) return "";
   if (!are_clocks_apart()) return "no GNSS epoch is used any more: look at its sender";
   // What was rejected before the start was compared with a time of the IMU that holds no more.

@@ -59,8 +59,8 @@ class InputMonitor {
   std::array<Rates, kInputChannels.size()> rates_;
   RecentFaults faults_;
   GrowthSinceLook lost_, imu_gaps_;
-  std::int64_t without_imu_before_ = 0;  // epochs, while the IMU was last in use
-  std::string detail_;                   // of the reason that is looked at
+  std::int64_t epochs_without_imu_at_last_use_ = 0;  // of the IMU
+  std::string detail_;                               // of the reason that is looked at
   Findings found_;
 };
 
