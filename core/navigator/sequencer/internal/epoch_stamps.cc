@@ -1,7 +1,7 @@
 #include "core/navigator/sequencer/internal/epoch_stamps.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 
 #include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 #include "core/navigator/sequencer/internal/interval.h"
