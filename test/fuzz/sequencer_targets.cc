@@ -20,8 +20,8 @@ void require_answer(FuzzBytes bytes, bool is_whole) {
   }
 }
 
-// The rules count on no rate of samples. So most scripts are played in the form that takes a
-// quarter of the time.
+// Most scripts are played in the form that takes a quarter of the time. Blocks that are full and
+// sensors known to be frozen need more samples than that form has.
 void run_script(FuzzBytes bytes) {
   require_answer(bytes, false);
   if (is_chosen(bytes, 16)) require_answer(bytes, true);

@@ -13,6 +13,7 @@ Sequencer::Sequencer(const NavigatorConfig& config, StageInputs* stages)
       stages_(stages),
       inertial_(config.motion == MotionModel::kInertial),
       imu_(config),
+      imu_silence_(config.realtime.epoch_interval_s),
       stamps_(config.realtime.epoch_interval_s),
       empty_epochs_(config.realtime),
       odometer_(inertial_ && config.vehicle.motion.constraints.odometer),
@@ -55,14 +56,13 @@ void Sequencer::accept_imu(const ImuSample& received) {
       sample, epochs_.newest_time(), stamps_.max_ahead_ns(), stamps_.max_imu_offset_ns());
   if (stamp.fault != InputFault::kNone) return reject_imu(stamp.fault);
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
-  const bool comes_too_late =
-      sample.time < epochs_.last_time() && stamps_.are_apart(sample.time, epochs_.last_time());
-  if (comes_too_late && imu_silence_.lasts()) return reject_imu(InputFault::kTimeBackwards);
+  const bool in_time = imu_silence_.is_in_time(sample.time, epochs_.last_time());
+  if (!in_time && imu_silence_.lasts()) return reject_imu(InputFault::kTimeBackwards);
   if (!lay_on_timeline(&sample)) return reject_imu(InputFault::kTimeBackwards);
 
   ++counters_.imu;
   imu_.accept(sample);
-  if (!comes_too_late) imu_silence_.clear();
+  if (in_time) imu_silence_.clear();
   stamps_.add_imu_sample();
   imu_.rotate_to_body(&sample);
   stages_->push_inertial(sample);

@@ -1,6 +1,6 @@
 // A run whose IMU is silent for fifteen seconds: the threads, Navigator and the journal agree on
 // the answers from GNSS alone.
-#include <algorithm>
+#include <cmath>
 #include <leonav/solution_t.hpp>
 #include <vector>
 
@@ -38,14 +38,16 @@ test::Collector run(const std::vector<test::Input>& list, bool in_step,
   return outputs;
 }
 
-std::size_t answers_from_gnss(const test::Collector& outputs) {
-  const std::vector<test::Bytes>& solutions = outputs.groups[0];
-  return static_cast<std::size_t>(
-      std::count_if(solutions.begin(), solutions.end(), [](const test::Bytes& bytes) {
-        solution_t solution;
-        REQUIRE(solution.decode(bytes.data(), 0, static_cast<int>(bytes.size())) > 0);
-        return solution.source == solution_t::SOURCE_ALIGNING;
-      }));
+// Times of the solutions while the IMU is silent, seconds after the start.
+std::vector<double> answers_in_silence(const test::Collector& outputs) {
+  std::vector<double> times;
+  for (const test::Bytes& bytes : outputs.groups[0]) {
+    solution_t solution;
+    REQUIRE(solution.decode(bytes.data(), 0, static_cast<int>(bytes.size())) > 0);
+    const double t = seconds_between(GpsTime::from_nanoseconds(solution.time_ns), test::kSkyEpoch);
+    if (t > 30.0 && t <= 45.0) times.push_back(t);
+  }
+  return times;
 }
 
 }  // namespace
@@ -53,8 +55,13 @@ std::size_t answers_from_gnss(const test::Collector& outputs) {
 TEST_CASE("answers while the IMU is silent are the same live, in one thread and replayed") {
   const std::vector<test::Input> list = drive_with_silence();
   const test::Collector reference = test::run_navigator(list, {});
-  // The silence is noticed after some seconds, and there is an epoch each second.
-  CHECK(answers_from_gnss(reference) >= 8);
+  // The silence is noticed after some seconds; then each epoch is an answer.
+  const std::vector<double> times = answers_in_silence(reference);
+  REQUIRE(times.size() >= 8);
+  CHECK(times.size() <= 15);
+  CHECK(times.back() > 44.0);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    CHECK(std::abs(times[i] - times[i - 1] - 1.0) < 1e-3);
   const test::TemporaryFile folder("unused", "");
   const std::string journal = folder.beside("journal.lcmlog");
   SECTION("in step") {

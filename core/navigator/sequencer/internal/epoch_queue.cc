@@ -18,6 +18,7 @@ bool EpochQueue::is_known(GpsTime time) const {
 }
 
 std::size_t EpochQueue::insert(const RawEpoch& epoch) {
+  last_inserted_ = epoch.time;
   const std::size_t left_out = copy_valid_observations(epoch, pending_[count_].get());
   for (std::size_t i = count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
     std::swap(pending_[i], pending_[i - 1]);
@@ -35,8 +36,7 @@ void EpochQueue::remove_oldest() {
 bool EpochQueue::is_overdue() const {
   if (count_ > kMaxPendingEpochs) return true;
   if (count_ <= kMinPending) return false;
-  const GpsTime newest = pending_[count_ - 1]->time;
-  return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
+  return nanoseconds_between(last_inserted_, pending_[0]->time) > kMaxImuLatencyNs;
 }
 
 GpsTime EpochQueue::newest_time() const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 #include "core/navigator/sequencer/internal/interval.h"
@@ -35,10 +36,12 @@ StampDecision EpochStamps::evaluate(GpsTime time, GpsTime imu_time, GpsTime newe
   if (!reference.is_set()) return {};
   const std::int64_t ahead_ns = nanoseconds_between(time, reference);
   const bool imu_counts = imu_time.is_set() && confirms_imu_;
-  const bool continues_run = !imu_counts && rejected_.run() > 0 && time < newest_epoch;
+  const bool continues_run = !imu_counts && rejected_.run() > 0 &&
+                             nanoseconds_between(newest_epoch, time) > max_imu_offset_ns_;
   if (ahead_ns <= max_ahead_ns_ && ahead_ns >= -kMaxStampAheadNs && !continues_run) return {};
   const bool is_run = rejected_.reject(time);
-  if (!is_run || (imu_counts && rejected_.run() < run_with_imu_))
+  const bool may_be_backlog = ahead_ns < 0 && rejected_.run_ns() <= kMaxBacklogNs;
+  if (!is_run || (imu_counts && (rejected_.run() < run_with_imu_ || may_be_backlog)))
     return {ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards};
   return {InputFault::kNone, true, seconds_between(time, reference)};
 }
@@ -48,6 +51,7 @@ bool EpochStamps::add_late(GpsTime time, GpsTime imu_time, GpsTime last_issued) 
   // Else GNSS is slow, and only empty epochs have been issued.
   const bool against_epochs = time <= last_issued;
   if (imu_time.is_set() && !against_imu && !against_epochs) return false;
+  if (std::exchange(late_is_against_imu_, against_imu) != against_imu) late_.clear();
   const bool is_run = late_.reject(time);
   if (against_imu && confirms_imu_)
     return late_.run() >= run_with_imu_ && late_.run_ns() > kImuSilenceNs;

@@ -19,6 +19,9 @@ class EpochStamps {
   // inertial answer goes on: at least so many epochs, and more than such a silence has.
   static constexpr int kRunWithImu = 12;
   static constexpr std::int64_t kImuSilenceNs = 10'000'000'000;
+  // What a link held back while it stalled comes at once and is older than the IMU's time. Epochs
+  // that are too far behind a confirmed IMU contradict it if their run is longer than this.
+  static constexpr std::int64_t kMaxBacklogNs = 60'000'000'000;
   // How long a run of late epochs must be before it contradicts the time they are late in.
   static constexpr std::int64_t kLateRunNs = 3'000'000'000;
 
@@ -37,14 +40,14 @@ class EpochStamps {
 
   // Decides whether the stamp of an epoch fits. `newest_epoch` may be unset. A late epoch passes
   // here. While no epoch has confirmed the IMU's time, kRunToRestart epochs suffice to contradict
-  // it: those that are rejected, and then those that are older than the newest one, although no
-  // longer by too much.
+  // it: those that are rejected, and then those that are older than the newest one by more than
+  // max_imu_offset_ns().
   StampDecision evaluate(GpsTime time, GpsTime imu_time, GpsTime newest_epoch);
   // Adds a late epoch to the run of late ones, and returns whether these show that the time in
   // which they are late is wrong. Epochs from which the IMU is too far contradict it: if an epoch
   // has confirmed its time, as many as change the time while it is silent. Those that fit it
   // contradict wrong epochs, later ones, which were issued before: `last_issued` is the time of
-  // the last epoch that was issued and not empty; may be unset.
+  // the last epoch that was issued and not empty; may be unset. A run is of one kind.
   bool add_late(GpsTime time, GpsTime imu_time, GpsTime last_issued);
   // Records that an epoch has fitted; with `imu_keeps_time` it confirms the time of the IMU, until
   // the next time step.
@@ -60,7 +63,8 @@ class EpochStamps {
   std::int64_t max_ahead_ns_, max_imu_offset_ns_;
   int run_with_imu_;
   TimeStepMonitor rejected_, late_;  // runs of epochs
-  GpsTime imu_time_at_last_;         // at the last evaluate()
+  bool late_is_against_imu_ = false;
+  GpsTime imu_time_at_last_;  // at the last evaluate()
   bool confirms_imu_ = false;
 };
 

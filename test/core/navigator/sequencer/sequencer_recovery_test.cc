@@ -65,11 +65,45 @@ TEST_CASE("GNSS that goes on in another time while the IMU stays silent is follo
     CAPTURE(ahead_ms);
     MillisecondRig rig;
     rig.drive(5);
-    for (int k = 0; k < 40; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
+    // Those behind might be what a stalled link had held back.
+    const int rejected = ahead_ms < 0 ? 61 : EpochStamps::kRunWithImu - 1;
+    for (int k = 0; k < rejected + 20; ++k) rig.epoch(rig.now_ms + ahead_ms + 1000 * k);
     REQUIRE(rig.stages.commands.size() == 1);
     CHECK(rig.stages.commands[0].cause == ResetCause::kTimeBase);
-    CHECK(rig.rejected() == EpochStamps::kRunWithImu - 1);
+    CHECK(rig.rejected() == static_cast<std::uint64_t>(rejected));
   }
+}
+
+TEST_CASE("epochs that a link held back while it stalled, or sends again, cost nothing") {
+  const bool sent_again = GENERATE(false, true);
+  for (const int held_s : {4, 9, 15, 25, 60}) {
+    CAPTURE(held_s, sent_again);
+    MillisecondRig rig;
+    rig.drive(30);
+    const std::int64_t stall_ms = rig.now_ms;
+    if (!sent_again) {
+      rig.imu(rig.now_ms, rig.now_ms + 1000 * held_s);
+      rig.now_ms += 1000 * held_s;
+    }
+    for (int k = 1; k <= held_s; ++k)
+      rig.epoch((sent_again ? stall_ms - 1000 * held_s : stall_ms) + 1000 * k);
+    rig.drive(5);
+    CHECK(rig.good_epochs(5) == 5);
+    CHECK(rig.stages.commands.empty());
+  }
+}
+
+TEST_CASE("right epochs wait for their IMU samples, although wrong ones wait far ahead of them") {
+  MillisecondRig rig;
+  rig.drive(5);
+  for (int k = 6; k < 10; ++k) rig.epoch(rig.now_ms + 1000 * k);
+  for (int k = 0; k < 5; ++k, rig.now_ms += 1000) {
+    rig.imu(rig.now_ms, rig.now_ms + 980);
+    rig.epoch(rig.now_ms + 1000);
+    rig.imu(rig.now_ms + 980, rig.now_ms + 1000);
+  }
+  CHECK(rig.good_epochs(5) == 5);
+  CHECK(rig.sequencer.counters().epochs_without_imu == 0);
 }
 
 TEST_CASE("epochs stamped in the future while no IMU sample comes do not end navigation") {
