@@ -133,7 +133,8 @@ void Sequencer::accept_epoch(const RawEpoch& epoch) {
   const StampDecision stamp = stamps_.evaluate(epoch.time, imu_time, epochs_.newest_time());
   if (stamp.fault != InputFault::kNone) return reject_epoch(stamp.fault);
   if (stamp.starts_new_time) {
-    follow_epochs(stamp.jump_s, imu_.time().is_set() && !stamps_.confirms_imu());
+    follow_epochs(stamp.jump_s,
+                  stamp.contradicts_imu || (imu_.time().is_set() && !stamps_.confirms_imu()));
   } else if (epochs_.is_known(epoch.time)) {
     return reject_epoch(InputFault::kDuplicate);
   } else if (epochs_.is_late(epoch.time)) {
@@ -178,6 +179,7 @@ void Sequencer::issue_ready_epochs() {
     const bool waiting = !epochs_.empty();
     const bool passed = waiting && (!inertial_ || epochs_.oldest().time <= imu_.time());
     if (passed) {
+      imu_silence_.add_issued(true);
       issue_oldest_pending();
     } else if (const GpsTime due = time_of_due_empty_epoch(); due.is_set()) {
       issue(nullptr, due);
@@ -187,6 +189,7 @@ void Sequencer::issue_ready_epochs() {
         emit(EventKind::kCapacity, static_cast<std::uint8_t>(SequencerCapacity::kPendingEpochs),
              static_cast<double>(next_index_));
       }
+      imu_silence_.add_issued(false);
       issue_oldest_pending();
     } else {
       return;

@@ -41,9 +41,9 @@ enum class SequencerCapacity : std::uint8_t {
 // Sequencer decides from the data alone, so that a replay decides the same. The rules:
 // - An epoch is issued once the IMU has passed its time. Without IMU
 //   (MotionModel::kConstantVelocity) it is issued at once, and nothing goes to the inertial stage.
-// - An epoch whose IMU data are late waits until more than EpochQueue::kMinPending wait and the one
-//   that came last is more than kMaxImuLatencyNs later, or until kMaxPendingEpochs wait. It is then
-//   issued without all of its IMU data, counted, and reported as kCapacity
+// - An epoch whose IMU data are late waits until more than EpochQueue::kMinPending wait and the two
+//   that came last are more than kMaxImuLatencyNs later, or until kMaxPendingEpochs wait. It is
+//   then issued without all of its IMU data, counted, and reported as kCapacity
 //   (SequencerCapacity::kPendingEpochs).
 // - While the IMU is silent (ImuSilence), epochs do not wait for it. Those that wait are issued, at
 //   most kMostAtOnce with each epoch that comes. The newest epoch is then the time of the data: the
@@ -69,22 +69,24 @@ enum class SequencerCapacity : std::uint8_t {
 //   rejected, until a run of consistent ones shows that time itself has changed. Then everything
 //   restarts in the new time.
 // - The same holds for epochs while the IMU keeps time, except that "too far" is three epoch
-//   intervals where those are longer. While IMU samples arrive between epochs, GNSS does not change
-//   the time: "ahead" is counted from the IMU alone. Where they do not, a run of epochs changes the
-//   time only after more of them than the IMU may miss without an end of the answer
-//   (EpochStamps::kRunWithImu): a burst of wrong stamps between two samples costs nothing. What a
-//   link held back while it stalled is behind the IMU, and costs nothing up to kMaxBacklogNs.
+//   intervals where those are longer. While IMU samples arrive between epochs, "ahead" is counted
+//   from the IMU alone, and a time that both have kept is changed only by a run of epochs longer
+//   than EpochStamps::kMaxBacklogNs that keep their distance from the IMU. Where no samples arrive,
+//   it is changed by more epochs than the IMU may miss without an end of the answer
+//   (EpochStamps::kRunWithImu), or behind the IMU by a run longer than kMaxBacklogNs. So a burst of
+//   wrong stamps between two samples costs nothing, nor does what a link held back while it
+//   stalled.
 // - IMU and epochs may contradict each other, as after one clock has leapt. An epoch that fits the
 //   time of the IMU confirms it. A time that is not confirmed is changed by
 //   EpochStamps::kRunToRestart epochs in a row that are rejected, or by as many late ones, over
 //   more than kLateRunNs, that are further from the IMU than max_imu_offset_ns(). A confirmed time
-//   is changed by EpochStamps::kRunWithImu such late epochs, as after a leap by seconds. Late
-//   epochs that fit the IMU's time contradict wrong ones that were issued before them. Everything
-//   restarts in the time of the epochs.
-// - An IMU that epochs have contradicted is distrusted until one of its samples is accepted: one
-// not
-//   further than max_imu_offset_ns() from the newest epoch. It can change the time only where no
-//   epoch comes for ImuIntake::kDistrustedRunNs, or for kDistrustedIntervals where that is longer.
+//   is changed by EpochStamps::kRunWithImu such late epochs, as after a leap by seconds. Those too
+//   keep their distance from the IMU (SteadyRun). Late epochs that fit the IMU's time contradict
+//   wrong ones that were issued before them. Everything restarts in the time of the epochs.
+// - An IMU that epochs have contradicted is distrusted until one of its samples is accepted: then
+//   it is not further than max_imu_offset_ns() from the newest epoch. It can change the time only
+//   where no epoch comes for ImuIntake::kDistrustedRunNs, or for kDistrustedIntervals where that is
+//   longer.
 // - Where epochs have led the time away while the IMU was silent, or before its first sample, a run
 //   of IMU samples so far behind them restarts everything in the time of the IMU.
 // - GNSS alone keeps time where there is no IMU, none yet, or a silent one. An epoch that leaps

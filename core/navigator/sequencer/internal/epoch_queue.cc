@@ -18,7 +18,7 @@ bool EpochQueue::is_known(GpsTime time) const {
 }
 
 std::size_t EpochQueue::insert(const RawEpoch& epoch) {
-  last_inserted_ = epoch.time;
+  before_last_inserted_ = std::exchange(last_inserted_, epoch.time);
   const std::size_t left_out = copy_valid_observations(epoch, pending_[count_].get());
   for (std::size_t i = count_; i > 0 && epoch.time < pending_[i - 1]->time; --i) {
     std::swap(pending_[i], pending_[i - 1]);
@@ -36,7 +36,8 @@ void EpochQueue::remove_oldest() {
 bool EpochQueue::is_overdue() const {
   if (count_ > kMaxPendingEpochs) return true;
   if (count_ <= kMinPending) return false;
-  return nanoseconds_between(last_inserted_, pending_[0]->time) > kMaxImuLatencyNs;
+  const GpsTime newest = std::min(last_inserted_, before_last_inserted_);
+  return nanoseconds_between(newest, pending_[0]->time) > kMaxImuLatencyNs;
 }
 
 GpsTime EpochQueue::newest_time() const {
@@ -60,7 +61,7 @@ void EpochQueue::set_issued(GpsTime time, bool empty) {
 }
 
 void EpochQueue::clear() {
-  last_time_ = last_raw_time_ = GpsTime();
+  last_time_ = last_raw_time_ = last_inserted_ = before_last_inserted_ = GpsTime();
   last_is_empty_ = true;
   count_ = 0;
   has_held_ = false;

@@ -14,8 +14,8 @@ namespace leonav {
 // decided by EpochStamps. Allocates when constructed, not after.
 class EpochQueue {
  public:
-  // The oldest epoch is overdue if more than kMinPending epochs wait and the one that came last is
-  // more than kMaxImuLatencyNs later. One with a wrong stamp may be far ahead of both.
+  // The oldest epoch is overdue if more than kMinPending epochs wait and the two that came last are
+  // more than kMaxImuLatencyNs later. Others with wrong stamps may be far ahead of these.
   static constexpr std::size_t kMinPending = 4;
   static constexpr std::int64_t kMaxImuLatencyNs = 2'000'000'000;
 
@@ -64,7 +64,7 @@ class EpochQueue {
   bool has_held_ = false;
   GpsTime last_time_;      // of the last issued epoch, or where the IMU stream began
   GpsTime last_raw_time_;  // of the last issued epoch that was not empty
-  GpsTime last_inserted_;
+  GpsTime last_inserted_, before_last_inserted_;
   bool last_is_empty_ = true;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/navigator/sequencer/internal/empty_epoch_schedule.h"
 #include "core/navigator/sequencer/internal/interval.h"
@@ -18,7 +17,9 @@ EpochStamps::EpochStamps(double epoch_interval_s)
           kRunWithImu,
           static_cast<int>(kImuSilenceNs / interval_in_nanoseconds(epoch_interval_s)) + 2)),
       rejected_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)),
-      late_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)) {}
+      late_(kRunToRestart, interval_in_nanoseconds(kMaxStepS)),
+      far_from_imu_(interval_in_nanoseconds(kMaxStepS), EmptyEpochSchedule::kMaxGnssLatencyNs),
+      late_for_imu_(interval_in_nanoseconds(kMaxStepS), EmptyEpochSchedule::kMaxGnssLatencyNs) {}
 
 bool EpochStamps::are_apart(GpsTime imu_time, GpsTime epoch) const {
   return std::abs(nanoseconds_between(imu_time, epoch)) > max_imu_offset_ns_;
@@ -39,28 +40,39 @@ StampDecision EpochStamps::evaluate(GpsTime time, GpsTime imu_time, GpsTime newe
   const bool continues_run = !imu_counts && rejected_.run() > 0 &&
                              nanoseconds_between(newest_epoch, time) > max_imu_offset_ns_;
   if (ahead_ns <= max_ahead_ns_ && ahead_ns >= -kMaxStampAheadNs && !continues_run) return {};
+  const double jump_s = seconds_between(time, reference);
   const bool is_run = rejected_.reject(time);
+  if (imu_counts && imu_runs) {
+    far_from_imu_.add(time, imu_time);
+    if (far_from_imu_.run() >= kRunToRestart && far_from_imu_.run_ns() > kMaxBacklogNs)
+      return {InputFault::kNone, true, jump_s, true};
+  }
   const bool may_be_backlog = ahead_ns < 0 && rejected_.run_ns() <= kMaxBacklogNs;
   if (!is_run || (imu_counts && (rejected_.run() < run_with_imu_ || may_be_backlog)))
     return {ahead_ns > 0 ? InputFault::kTooFarAhead : InputFault::kTimeBackwards};
-  return {InputFault::kNone, true, seconds_between(time, reference)};
+  return {InputFault::kNone, true, jump_s};
 }
 
 bool EpochStamps::add_late(GpsTime time, GpsTime imu_time, GpsTime last_issued) {
-  const bool against_imu = imu_time.is_set() && are_apart(imu_time, time);
-  // Else GNSS is slow, and only empty epochs have been issued.
-  const bool against_epochs = time <= last_issued;
-  if (imu_time.is_set() && !against_imu && !against_epochs) return false;
-  if (std::exchange(late_is_against_imu_, against_imu) != against_imu) late_.clear();
-  const bool is_run = late_.reject(time);
-  if (against_imu && confirms_imu_)
-    return late_.run() >= run_with_imu_ && late_.run_ns() > kImuSilenceNs;
-  return is_run && late_.run_ns() > kLateRunNs;
+  if (imu_time.is_set() && are_apart(imu_time, time)) {
+    late_.clear();
+    late_for_imu_.add(time, imu_time);
+    return late_for_imu_.run() >= (confirms_imu_ ? run_with_imu_ : kRunToRestart) &&
+           late_for_imu_.run_ns() > (confirms_imu_ ? kImuSilenceNs : kLateRunNs);
+  }
+  late_for_imu_.clear();
+  if (imu_time.is_set() && time > last_issued) {  // GNSS is slow: only empty ones are later
+    late_.clear();
+    return false;
+  }
+  return late_.reject(time) && late_.run_ns() > kLateRunNs;
 }
 
 void EpochStamps::add_good(bool imu_keeps_time) {
   rejected_.clear();
   late_.clear();
+  far_from_imu_.clear();
+  late_for_imu_.clear();
   if (imu_keeps_time) confirms_imu_ = true;
 }
 
@@ -71,6 +83,8 @@ void EpochStamps::add_imu_sample() {
 void EpochStamps::clear() {
   rejected_.clear();
   late_.clear();
+  far_from_imu_.clear();
+  late_for_imu_.clear();
   imu_time_at_last_ = GpsTime();
   confirms_imu_ = false;
 }

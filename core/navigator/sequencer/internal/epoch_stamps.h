@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/navigator/sequencer/internal/stamp_decision.h"
+#include "core/navigator/sequencer/internal/steady_run.h"
 #include "core/navigator/sequencer/internal/time_step_monitor.h"
 
 namespace leonav {
@@ -19,8 +20,9 @@ class EpochStamps {
   // inertial answer goes on: at least so many epochs, and more than such a silence has.
   static constexpr int kRunWithImu = 12;
   static constexpr std::int64_t kImuSilenceNs = 10'000'000'000;
-  // What a link held back while it stalled comes at once and is older than the IMU's time. Epochs
-  // that are too far behind a confirmed IMU contradict it if their run is longer than this.
+  // A run longer than this contradicts a confirmed IMU although its samples come, if it is steady
+  // (SteadyRun). So does one behind a confirmed IMU whose samples do not come, steady or not: what
+  // a link held back while it stalled comes at once, and is behind as well.
   static constexpr std::int64_t kMaxBacklogNs = 60'000'000'000;
   // How long a run of late epochs must be before it contradicts the time they are late in.
   static constexpr std::int64_t kLateRunNs = 3'000'000'000;
@@ -47,7 +49,7 @@ class EpochStamps {
   // which they are late is wrong. Epochs from which the IMU is too far contradict it: if an epoch
   // has confirmed its time, as many as change the time while it is silent. Those that fit it
   // contradict wrong epochs, later ones, which were issued before: `last_issued` is the time of
-  // the last epoch that was issued and not empty; may be unset. A run is of one kind.
+  // the last epoch that was issued and not empty; may be unset.
   bool add_late(GpsTime time, GpsTime imu_time, GpsTime last_issued);
   // Records that an epoch has fitted; with `imu_keeps_time` it confirms the time of the IMU, until
   // the next time step.
@@ -62,9 +64,9 @@ class EpochStamps {
  private:
   std::int64_t max_ahead_ns_, max_imu_offset_ns_;
   int run_with_imu_;
-  TimeStepMonitor rejected_, late_;  // runs of epochs
-  bool late_is_against_imu_ = false;
-  GpsTime imu_time_at_last_;  // at the last evaluate()
+  TimeStepMonitor rejected_, late_;        // runs of epochs; late_: of those that fit the IMU
+  SteadyRun far_from_imu_, late_for_imu_;  // rejected ones, late ones
+  GpsTime imu_time_at_last_;               // at the last evaluate()
   bool confirms_imu_ = false;
 };
 

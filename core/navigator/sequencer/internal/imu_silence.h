@@ -9,32 +9,38 @@
 
 namespace leonav {
 
-// Of epochs that are later than its last accepted sample, with no sample between them, more than
-// kMinEpochs show that the IMU is silent, the newest more than kMinLengthNs after the first. Of
-// epochs that come rarely two suffice, the newest more than kLongNs after that sample. The IMU is
-// silent until a sample comes in time.
+// Of epochs that are later than its last accepted sample, with no sample in time between them, more
+// than kMinEpochs show that the IMU is silent, the newest more than kMinLengthNs after the first.
+// Of epochs that come rarely two suffice, the newest more than kLongNs after that sample. The IMU
+// is silent until a sample comes in time.
 class ImuSilence {
  public:
   static constexpr std::size_t kMinEpochs = 4;
   static constexpr std::int64_t kMinLengthNs = 2'000'000'000;
   static constexpr std::int64_t kLongNs = 10'000'000'000;
 
-  explicit ImuSilence(double epoch_interval_s) : max_lag_ns_(max_lag_ns(epoch_interval_s)) {}
+  explicit ImuSilence(double epoch_interval_s)
+      : interval_ns_(interval_in_nanoseconds(epoch_interval_s)), seen_interval_ns_(interval_ns_) {}
 
-  // Returns whether a sample is of use: later than the last epoch issued, which may be unset, or
-  // not so much earlier that the next epochs, which wait for it once the silence has ended, would
-  // show a silence again.
+  // Returns whether a sample comes in time: later than the last epoch issued, which may be unset,
+  // unless that one was issued without its samples. After a silence it is also in time if it is
+  // earlier by so little that the next epochs, which wait for it then, do not show a silence again.
   bool is_in_time(GpsTime sample, GpsTime last_issued) const {
-    return sample > last_issued ||
-           (lasts_ && nanoseconds_between(last_issued, sample) <= max_lag_ns_);
+    return (sample > last_issued && !misses_) ||
+           (lasts_ && nanoseconds_between(last_issued, sample) < max_lag_ns());
   }
   // Ends the silence, because a sample came in time or time itself has changed.
   void clear() {
     epochs_ = 0;
-    lasts_ = false;
+    lasts_ = misses_ = false;
   }
+  // Adds an epoch that was issued: whether the IMU had passed it, or it was not waited for longer.
+  void add_issued(bool has_passed) { misses_ = !has_passed; }
   // Adds an accepted epoch. `last_sample`: end of the last accepted sample, or unset.
   void add_epoch(GpsTime time, GpsTime last_sample) {
+    if (last_epoch_.is_set() && time > last_epoch_)
+      seen_interval_ns_ = nanoseconds_between(time, last_epoch_);
+    last_epoch_ = time;
     if (lasts_ || time <= last_sample) return;
     if (epochs_++ == 0) first_ = time;
     const bool many = epochs_ > kMinEpochs && nanoseconds_between(time, first_) > kMinLengthNs;
@@ -45,17 +51,20 @@ class ImuSilence {
   bool lasts() const { return lasts_; }
 
  private:
-  static std::int64_t max_lag_ns(double epoch_interval_s) {
-    const double epochs = static_cast<double>(kMinEpochs);
-    const std::int64_t shown_ns =
-        std::max(kMinLengthNs, interval_in_nanoseconds(epochs * epoch_interval_s));
-    return std::min(shown_ns - interval_in_nanoseconds(epoch_interval_s), kLongNs);
+  // By both rules of a silence.
+  std::int64_t max_lag_ns() const {
+    const std::int64_t interval_ns = std::min(interval_ns_, seen_interval_ns_);
+    const auto epochs = static_cast<std::int64_t>(kMinEpochs);
+    return std::min(std::max(kMinLengthNs, epochs * interval_ns) - interval_ns,
+                    std::max(interval_ns, kLongNs - interval_ns));
   }
 
-  std::int64_t max_lag_ns_;
+  std::int64_t interval_ns_, seen_interval_ns_;  // configured; between the last two epochs
+  GpsTime last_epoch_;
   std::size_t epochs_ = 0;  // later than the last sample, until they suffice
   GpsTime first_;           // of these
   bool lasts_ = false;
+  bool misses_ = false;  // the last epoch was issued without its samples
 };
 
 }  // namespace leonav

@@ -12,6 +12,7 @@ struct StampDecision {
   InputFault fault = InputFault::kNone;  // kNone: the input is accepted
   bool starts_new_time = false;          // a time step: everything kept belongs to the old time
   double jump_s = 0.0;                   // new time minus old time, at a time step
+  bool contradicts_imu = false;          // at a time step: the IMU's samples come in the old time
 };
 
 // A stamp further than this from all inputs so far is wrong, or begins a time step.

@@ -7,8 +7,8 @@
 namespace leonav::test {
 namespace {
 
-// Epochs at so many seconds, all at one time of the IMU; returns how many come until one starts a
-// new time, or 0.
+// Epochs from so many seconds on, all at one time of the IMU; returns how many come until one
+// starts a new time, or 0.
 int count_until_new_time(EpochStamps* stamps, double first_s, int count, double interval_s,
                          GpsTime imu_time, GpsTime newest_epoch) {
   for (int i = 0; i < count; ++i) {
@@ -18,10 +18,13 @@ int count_until_new_time(EpochStamps* stamps, double first_s, int count, double 
   return 0;
 }
 
+// The same for late epochs, while the IMU goes on by `imu_step_s` from epoch to epoch.
 int count_late_until_new_time(EpochStamps* stamps, double first_s, int count, double interval_s,
-                              GpsTime imu_time, GpsTime last_issued) {
+                              GpsTime imu_time, double imu_step_s, GpsTime last_issued) {
   for (int i = 0; i < count; ++i)
-    if (stamps->add_late(at_s(first_s + i * interval_s), imu_time, last_issued)) return i + 1;
+    if (stamps->add_late(at_s(first_s + i * interval_s), imu_time.plus_seconds(i * imu_step_s),
+                         last_issued))
+      return i + 1;
   return 0;
 }
 
@@ -93,13 +96,13 @@ TEST_CASE("IMU and epoch are apart beyond what GNSS may be late and an interval 
 TEST_CASE("late epochs contradict the IMU where it is too far from them") {
   EpochStamps stamps(1.0);
   // Nothing has confirmed it: five, over more than three seconds.
-  CHECK(count_late_until_new_time(&stamps, 0.0, 20, 1.0, at_s(30.0), GpsTime()) == 5);
+  CHECK(count_late_until_new_time(&stamps, 0.0, 20, 1.0, at_s(6.0), 1.0, GpsTime()) == 5);
   stamps.add_good(true);
-  CHECK(count_late_until_new_time(&stamps, 0.0, 20, 1.0, at_s(30.0), GpsTime()) == 12);
+  CHECK(count_late_until_new_time(&stamps, 0.0, 20, 1.0, at_s(6.0), 1.0, GpsTime()) == 12);
   EpochStamps fast(0.1);
-  CHECK(count_late_until_new_time(&fast, 0.0, 200, 0.1, at_s(30.0), GpsTime()) == 32);
+  CHECK(count_late_until_new_time(&fast, 0.0, 200, 0.1, at_s(6.0), 0.1, GpsTime()) == 32);
   fast.add_good(true);
-  CHECK(count_late_until_new_time(&fast, 0.0, 200, 0.1, at_s(30.0), GpsTime()) == 102);
+  CHECK(count_late_until_new_time(&fast, 0.0, 200, 0.1, at_s(6.0), 0.1, GpsTime()) == 102);
 }
 
 TEST_CASE("late epochs that fit the IMU contradict epochs issued before, but no empty ones") {
@@ -117,6 +120,38 @@ TEST_CASE("late epochs that fit the IMU contradict epochs issued before, but no 
   CHECK(late(at_s(0.0)) == 0);  // GNSS is slow: only empty epochs are later
 }
 
+TEST_CASE("a backlog that is sent faster than it was measured contradicts nothing") {
+  for (const double interval_s : {0.05, 0.1, 1.0, 2.0}) {
+    for (const double times_faster : {1.5, 2.0, 3.0, 5.0}) {
+      CAPTURE(interval_s, times_faster);
+      EpochStamps stamps(interval_s);
+      stamps.add_good(true);
+      bool starts_new_time = false;
+      // A stall of a minute, from 0 s on.
+      for (int k = 1; k < 1000; ++k) {
+        const double epoch_s = k * interval_s, now_s = 60.0 + epoch_s / times_faster;
+        if (epoch_s > now_s) break;
+        const StampDecision stamp = stamps.evaluate(at_s(epoch_s), at_s(now_s), at_s(now_s - 1.0));
+        starts_new_time = starts_new_time || stamp.starts_new_time;
+        if (stamp.fault == InputFault::kNone)
+          starts_new_time =
+              starts_new_time || stamps.add_late(at_s(epoch_s), at_s(now_s), at_s(0.0));
+        stamps.add_imu_sample();
+      }
+      CHECK_FALSE(starts_new_time);
+    }
+  }
+}
+
+TEST_CASE("latency that goes to and fro about the limit contradicts nothing") {
+  EpochStamps stamps(0.1);  // the limit is 2.15 s
+  stamps.add_good(true);
+  for (int k = 0; k < 1000; ++k) {
+    const double s = 0.1 * k, latency_s = k % 2 == 0 ? 2.1 : 2.3;
+    REQUIRE_FALSE(stamps.add_late(at_s(s), at_s(s + latency_s), at_s(-1.0)));
+  }
+}
+
 TEST_CASE("old epochs that are sent again do not contradict a confirmed IMU") {
   // All at once, when the IMU is at 20 s: the first ones are far from it, the last ones fit.
   for (const double interval_s : {0.05, 0.1, 0.5, 1.0, 2.0, 5.0, 30.0}) {
@@ -125,7 +160,7 @@ TEST_CASE("old epochs that are sent again do not contradict a confirmed IMU") {
     stamps.add_good(true);
     const int epochs = static_cast<int>(9.9 / interval_s);
     CHECK(count_late_until_new_time(&stamps, 20.0 - epochs * interval_s, epochs, interval_s,
-                                    at_s(20.0), at_s(20.0)) == 0);
+                                    at_s(20.0), 0.0, at_s(20.0)) == 0);
   }
 }
 

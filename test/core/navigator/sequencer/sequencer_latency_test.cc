@@ -130,5 +130,69 @@ TEST_CASE("epochs at a high rate fill the table before the two seconds") {
   CHECK(rig.sequencer.counters().epochs_without_imu == 200 - kMaxPendingEpochs);
 }
 
+// A drive whose IMU samples, at 50 Hz, come late by `late_ms`, and its epochs by 100 ms; samples of
+// times in (silent_from_s, silent_to_s] do not come. What the stages get of the last minute.
+struct LateImuDrive {
+  std::int64_t interval_ms, configured_ms, late_ms;
+  double silent_from_s, silent_to_s;
+  std::int64_t lost_epoch_s = -1;
+
+  static constexpr std::int64_t kEnd_ms = 240'000, kJudged_ms = 180'000;
+  std::size_t epochs = 0, whole = 0, alone = 0, restarts = 0;
+
+  void run() {
+    NavigatorConfig config;
+    config.realtime.epoch_interval_s = static_cast<double>(configured_ms) * 1e-3;
+    SequencerRig rig(config);
+    std::int64_t next = interval_ms;
+    for (std::int64_t ms = 20; ms <= kEnd_ms; ms += 20) {
+      const double s = static_cast<double>(ms - late_ms) * 1e-3;
+      if (s > 0.0 && (s <= silent_from_s || s > silent_to_s))
+        rig.sequencer.on_imu(sample_until(at_ms(ms - late_ms), 20 * kMs));
+      if (ms < next + 100) continue;
+      if (next != 1000 * lost_epoch_s) rig.sequencer.on_raw_epoch(epoch_at(at_ms(next)));
+      next += interval_ms;
+    }
+    restarts = rig.stages.commands.size();
+    for (const auto& block : rig.stages.blocks) {
+      if (block.empty || block.time <= at_ms(kJudged_ms)) continue;
+      ++epochs;
+      whole += !block.samples.empty() && block.samples.back().time == block.time ? 1 : 0;
+    }
+    for (const TimeWithoutImu& data : rig.stages.times_without_imu)
+      alone += data.time > at_ms(kJudged_ms) ? 1 : 0;
+  }
+};
+
+TEST_CASE(
+    "however late the IMU is, either every epoch has its samples or GNSS alone answers each") {
+  struct Rates {
+    std::int64_t interval_ms, configured_ms;
+  };
+  for (const Rates& rates : {Rates{100, 100}, Rates{200, 200}, Rates{1000, 1000}, Rates{5000, 5000},
+                             Rates{100, 1000}, Rates{1000, 5000}}) {
+    for (std::int64_t late_ms = 0; late_ms <= 12'000; late_ms += 250) {
+      for (const int silence_s : {0, 8, 60}) {
+        LateImuDrive drive{rates.interval_ms, rates.configured_ms, late_ms, 60.0, 60.0 + silence_s};
+        drive.run();
+        CAPTURE(rates.interval_ms, rates.configured_ms, late_ms, silence_s, drive.epochs,
+                drive.whole, drive.alone);
+        CHECK((drive.whole == drive.epochs || drive.alone >= drive.epochs));
+        if (late_ms <= 9'000) CHECK(drive.restarts == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("an IMU too late to be used is silent again some epochs after one epoch is lost") {
+  for (const std::int64_t late_ms : {4'600, 6'000, 8'000}) {
+    LateImuDrive drive{1000, 1000, late_ms, 0.0, 0.0, 160};
+    drive.run();
+    CAPTURE(late_ms, drive.epochs, drive.whole, drive.alone);
+    CHECK(drive.alone >= drive.epochs);
+    CHECK(drive.restarts == 0);
+  }
+}
+
 }  // namespace
 }  // namespace leonav::test

@@ -113,11 +113,37 @@ TEST_CASE("GNSS alone cannot change the time that IMU and GNSS keep together") {
   CHECK(rig.stages.commands.empty());
 }
 
+TEST_CASE("GNSS that contradicts IMU and past for more than a minute is followed") {
+  for (const std::int64_t leap_ms : {-3'600'000LL, -12'000LL, 12'000LL, 3'600'000LL}) {
+    CAPTURE(leap_ms);
+    SequencerRig rig;
+    const std::int64_t base = 7'200'000;
+    const auto drive = [&](int from_s, int to_s, std::int64_t gnss_off_ms) {
+      for (int s = from_s; s < to_s; ++s) {
+        rig.imu(base + 1000 * s, base + 1000 * (s + 1));
+        rig.sequencer.on_raw_epoch(epoch_at(at_ms(base + 1000 * (s + 1) + gnss_off_ms)));
+      }
+    };
+    drive(0, 10, 0);
+    drive(10, 71, leap_ms);
+    CHECK(rig.stages.commands.empty());
+    drive(71, 72, leap_ms);
+    REQUIRE(rig.stages.commands.size() == 1);
+    const std::size_t before = rig.stages.times_without_imu.size();
+    drive(72, 92, leap_ms);
+    CHECK(rig.stages.times_without_imu.size() >= before + 14);
+    CHECK(rig.stages.commands.size() == 1);
+    drive(92, 112, 0);  // right again: IMU and GNSS fit
+    CHECK(rig.stages.blocks.back().samples.size() >= 199);
+  }
+}
+
 TEST_CASE("an IMU whose clock leaps away is left, and followed again once it is right or alone") {
   constexpr std::int64_t kHour = 3'600'000;
   // At the start, or after IMU and GNSS have kept time together; ahead or behind.
   const int alone_s = GENERATE(0, 3, 20), together_s = GENERATE(0, 10);
-  const std::int64_t leap_ms = std::int64_t{1000} * GENERATE(-3600, -8, -6, 6, 12, 3600);
+  const std::int64_t leap_ms =
+      GENERATE(-3'600'000, -8'000, -6'000, -4'500, 6'000, 12'000, 3'600'000);
   CAPTURE(alone_s, together_s, leap_ms);
   SequencerRig rig;
   const auto base = 2 * kHour;  // milliseconds
@@ -149,7 +175,7 @@ TEST_CASE("an IMU whose clock leaps away is left, and followed again once it is 
   const std::size_t restarts = rig.stages.commands.size();
   // One to the IMU's time, where that is too far from a time kept before, and one back. Samples
   // that are some seconds behind are as late ones.
-  const bool is_late = leap_ms == -8'000 || leap_ms == -6'000;
+  const bool is_late = leap_ms < 0 && leap_ms >= -8'000;
   const bool is_led_away = together_s > 0 ? std::abs(leap_ms) > 10'000 : alone_s > 0 && leap_ms < 0;
   const std::size_t of_late = together_s > 0 ? 1 : 0;
   CHECK(restarts == (is_late ? of_late : is_led_away ? 2 : 1));
