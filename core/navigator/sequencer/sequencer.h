@@ -71,8 +71,8 @@ enum class SequencerCapacity : std::uint8_t {
 // - The same holds for epochs while the IMU keeps time, except that "too far" is three epoch
 //   intervals where those are longer. While IMU samples arrive between epochs, "ahead" is counted
 //   from the IMU alone, and a time that both have kept is changed only by a run of epochs longer
-//   than EpochStamps::kMaxBacklogNs that keep their distance from the IMU. Where no samples arrive,
-//   it is changed by more epochs than the IMU may miss without an end of the answer
+//   than EpochStamps::kMaxContradictionNs that keep their distance from the IMU. Where no samples
+//   arrive, it is changed by more epochs than the IMU may miss without an end of the answer
 //   (EpochStamps::kRunWithImu), or behind the IMU by a run longer than kMaxBacklogNs. So a burst of
 //   wrong stamps between two samples costs nothing, nor does what a link held back while it
 //   stalled.

@@ -44,7 +44,7 @@ StampDecision EpochStamps::evaluate(GpsTime time, GpsTime imu_time, GpsTime newe
   const bool is_run = rejected_.reject(time);
   if (imu_counts && imu_runs) {
     far_from_imu_.add(time, imu_time);
-    if (far_from_imu_.run() >= kRunToRestart && far_from_imu_.run_ns() > kMaxBacklogNs)
+    if (far_from_imu_.run() >= kRunToRestart && far_from_imu_.run_ns() > kMaxContradictionNs)
       return {InputFault::kNone, true, jump_s, true};
   }
   const bool may_be_backlog = ahead_ns < 0 && rejected_.run_ns() <= kMaxBacklogNs;

@@ -20,8 +20,10 @@ class EpochStamps {
   // inertial answer goes on: at least so many epochs, and more than such a silence has.
   static constexpr int kRunWithImu = 12;
   static constexpr std::int64_t kImuSilenceNs = 10'000'000'000;
-  // A run longer than this contradicts a confirmed IMU although its samples come, if it is steady
-  // (SteadyRun). So does one behind a confirmed IMU whose samples do not come, steady or not: what
+  // A steady run (SteadyRun) longer than this contradicts a confirmed IMU although its samples
+  // come. It is mostly GNSS that is wrong then; but the inertial answer is of no use for longer.
+  static constexpr std::int64_t kMaxContradictionNs = 300'000'000'000;
+  // A run behind a confirmed IMU whose samples do not come contradicts it if longer than this: what
   // a link held back while it stalled comes at once, and is behind as well.
   static constexpr std::int64_t kMaxBacklogNs = 60'000'000'000;
   // How long a run of late epochs must be before it contradicts the time they are late in.
