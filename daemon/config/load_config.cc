@@ -78,7 +78,7 @@ DaemonConfig load_layers(ConfigLayer file, const std::vector<std::string>& overr
   DaemonConfig config;
   read_layers(layers, &source, [&](ConfigReader& root) {
     config = read_root(root);
-    config.source = {source.name, source.keys};
+    config.source = {source.name, std::move(source.keys)};
     for (const ConfigCheck& check : checks) root.attempt([&] { check(config); });
   });
   return config;
