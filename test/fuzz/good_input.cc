@@ -113,17 +113,19 @@ void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, Check
   const auto have_come = [&](int second) {
     return is_good(stages->before_newest(), second - 1) && is_good(stages->newest(), second);
   };
+  int last_pair = 0;  // the second of the newest epoch that has come with the one before it
   for (int second = 1; second <= seconds; ++second) {
     const GpsTime begin = good.base.plus_nanoseconds((second - 1) * kSecond);
     feed_samples(begin, kSecond);
     sequencer->on_raw_epoch(epoch_of(begin.plus_nanoseconds(kSecond), 5));
-    if (good.stops_early && (have_come(second) || have_come(second - 1))) return;
+    last_pair = have_come(second) ? second : have_come(second - 1) ? second - 1 : last_pair;
+    if (good.stops_early && last_pair > 0) return;
   }
   // The IMU passes the last epoch even where its stamps are taken to be later or to jitter.
   feed_samples(good.base.plus_nanoseconds(seconds * kSecond), kSecond / 2);
-  // The last one may be late: the latency that a configured offset makes is as long as the longest
-  // allowance, and stamps that have jittered are laid a little off.
-  if (have_come(seconds) || have_come(seconds - 1)) return;
+  // One of the last ones may be late: the latency that a configured offset makes is as long as the
+  // longest allowance, and stamps that have jittered are laid a little off.
+  if (have_come(seconds) || last_pair >= seconds - 2) return;
   throw Finding("a dead end: after " + std::to_string(seconds) +
                 " s of good input the last two epochs have not reached the stages");
 }

@@ -56,7 +56,8 @@ void Sequencer::accept_imu(const ImuSample& received) {
       sample, epochs_.newest_time(), stamps_.max_ahead_ns(), stamps_.max_imu_offset_ns());
   if (stamp.fault != InputFault::kNone) return reject_imu(stamp.fault);
   if (stamp.starts_new_time) start_new_time(stamp.jump_s);
-  const bool in_time = imu_silence_.is_in_time(sample.time, epochs_.last_time());
+  const bool in_time =
+      imu_silence_.is_in_time(sample.time, epochs_.last_time(), epochs_.newest_time());
   if (!in_time && imu_silence_.lasts()) return reject_imu(InputFault::kTimeBackwards);
   if (!lay_on_timeline(&sample)) return reject_imu(InputFault::kTimeBackwards);
 

@@ -74,8 +74,8 @@ enum class SequencerCapacity : std::uint8_t {
 //   than EpochStamps::kMaxContradictionNs that keep their distance from the IMU. Where no samples
 //   arrive, it is changed by more epochs than the IMU may miss without an end of the answer
 //   (EpochStamps::kRunWithImu), or behind the IMU by a run longer than kMaxBacklogNs. So a burst of
-//   wrong stamps between two samples costs nothing, nor does what a link held back while it
-//   stalled.
+//   wrong stamps between two samples costs nothing, nor does what a link held back for up to a
+//   minute.
 // - IMU and epochs may contradict each other, as after one clock has leapt. An epoch that fits the
 //   time of the IMU confirms it. A time that is not confirmed is changed by
 //   EpochStamps::kRunToRestart epochs in a row that are rejected, or by as many late ones, over

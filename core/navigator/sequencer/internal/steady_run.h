@@ -9,8 +9,8 @@ namespace leonav {
 
 // SteadyRun follows epochs that contradict the IMU. Where two clocks differ, the distance between
 // IMU and epoch stays. What a link held back while it stalled comes faster than it was measured:
-// that distance shrinks, and the run begins anew. GNSS may be late by up to `tolerance_ns`, and by
-// another amount at each epoch.
+// that distance shrinks by more than `tolerance_ns`, and the run begins anew. So much may the
+// latency of GNSS vary. A backlog that shrinks more slowly looks like another time.
 class SteadyRun {
  public:
   SteadyRun(std::int64_t max_step_ns, std::int64_t tolerance_ns)

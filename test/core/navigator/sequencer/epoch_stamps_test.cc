@@ -121,15 +121,16 @@ TEST_CASE("late epochs that fit the IMU contradict epochs issued before, but no 
 }
 
 TEST_CASE("a backlog that is sent faster than it was measured contradicts nothing") {
+  const double stall_s = GENERATE(12.0, 60.0, 600.0);
   for (const double interval_s : {0.05, 0.1, 1.0, 2.0}) {
-    for (const double times_faster : {1.5, 2.0, 3.0, 5.0}) {
-      CAPTURE(interval_s, times_faster);
+    for (const double times_faster : {1.3, 1.5, 2.0, 3.0, 5.0}) {
+      CAPTURE(stall_s, interval_s, times_faster);
       EpochStamps stamps(interval_s);
       stamps.add_good(true);
       bool starts_new_time = false;
-      // A stall of a minute, from 0 s on.
-      for (int k = 1; k < 1000; ++k) {
-        const double epoch_s = k * interval_s, now_s = 60.0 + epoch_s / times_faster;
+      // The stall begins at 0 s.
+      for (int k = 1; k < 100'000; ++k) {
+        const double epoch_s = k * interval_s, now_s = stall_s + epoch_s / times_faster;
         if (epoch_s > now_s) break;
         const StampDecision stamp = stamps.evaluate(at_s(epoch_s), at_s(now_s), at_s(now_s - 1.0));
         starts_new_time = starts_new_time || stamp.starts_new_time;
@@ -140,6 +141,20 @@ TEST_CASE("a backlog that is sent faster than it was measured contradicts nothin
       }
       CHECK_FALSE(starts_new_time);
     }
+  }
+}
+
+TEST_CASE("late epochs of two kinds make no run together") {
+  EpochStamps stamps(0.1);  // epochs that are more than 2.15 s late do not fit the IMU
+  stamps.add_good(true);
+  const bool is_slow = GENERATE(false, true);
+  for (int k = 0; k < 200; ++k) {
+    const double s = 0.1 * k;
+    // They fit, behind an epoch issued before. One in eight is far from the IMU, or only slow.
+    const bool is_other = k % 8 == 7;
+    const GpsTime last_issued = is_other && is_slow ? at_s(-1.0) : at_s(100.0);
+    CHECK_FALSE(
+        stamps.add_late(at_s(s), at_s(s + (is_other && !is_slow ? 3.0 : 1.0)), last_issued));
   }
 }
 

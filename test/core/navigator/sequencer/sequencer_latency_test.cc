@@ -134,8 +134,9 @@ TEST_CASE("epochs at a high rate fill the table before the two seconds") {
 // times in (silent_from_s, silent_to_s] do not come. What the stages get of the last minute.
 struct LateImuDrive {
   std::int64_t interval_ms, configured_ms, late_ms;
-  double silent_from_s, silent_to_s;
+  double silent_from_s = 0.0, silent_to_s = 0.0;
   std::int64_t lost_epoch_s = -1;
+  std::int64_t creep_ms_per_s = 0;  // after the first minute, up to late_ms; 0: late at once
 
   static constexpr std::int64_t kEnd_ms = 240'000, kJudged_ms = 180'000;
   std::size_t epochs = 0, whole = 0, alone = 0, restarts = 0;
@@ -145,13 +146,17 @@ struct LateImuDrive {
     config.realtime.epoch_interval_s = static_cast<double>(configured_ms) * 1e-3;
     SequencerRig rig(config);
     std::int64_t next = interval_ms;
+    std::int64_t sample = 20;
     for (std::int64_t ms = 20; ms <= kEnd_ms; ms += 20) {
-      const double s = static_cast<double>(ms - late_ms) * 1e-3;
-      if (s > 0.0 && (s <= silent_from_s || s > silent_to_s))
-        rig.sequencer.on_imu(sample_until(at_ms(ms - late_ms), 20 * kMs));
-      if (ms < next + 100) continue;
-      if (next != 1000 * lost_epoch_s) rig.sequencer.on_raw_epoch(epoch_at(at_ms(next)));
-      next += interval_ms;
+      const std::int64_t crept_ms = creep_ms_per_s * std::max<std::int64_t>(ms - 60'000, 0) / 1000;
+      const std::int64_t late_now_ms = creep_ms_per_s > 0 ? std::min(crept_ms, late_ms) : late_ms;
+      for (; sample <= ms - late_now_ms; sample += 20) {
+        const double s = static_cast<double>(sample) * 1e-3;
+        if (s <= silent_from_s || s > silent_to_s)
+          rig.sequencer.on_imu(sample_until(at_ms(sample), 20 * kMs));
+      }
+      for (; ms >= next + 100; next += interval_ms)
+        if (next != 1000 * lost_epoch_s) rig.sequencer.on_raw_epoch(epoch_at(at_ms(next)));
     }
     restarts = rig.stages.commands.size();
     for (const auto& block : rig.stages.blocks) {
@@ -182,6 +187,35 @@ TEST_CASE(
       }
     }
   }
+}
+
+TEST_CASE("an IMU that becomes later and later is used, and then silent") {
+  for (const std::int64_t interval_ms : {20, 40, 50, 100, 200, 1000, 5000}) {
+    for (std::int64_t late_ms = 250; late_ms <= 9'000; late_ms += 250) {
+      for (const std::int64_t creep_ms_per_s : {100, 1'000'000}) {
+        LateImuDrive drive{interval_ms, std::max<std::int64_t>(interval_ms, 50), late_ms};
+        drive.creep_ms_per_s = creep_ms_per_s;
+        drive.run();
+        CAPTURE(interval_ms, late_ms, creep_ms_per_s, drive.epochs, drive.whole, drive.alone);
+        CHECK((drive.whole == drive.epochs || drive.alone >= drive.epochs));
+        CHECK(drive.restarts == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("one wrong stamp ahead takes no right epoch from its IMU samples") {
+  NavigatorConfig config;
+  config.realtime.epoch_interval_s = 0.1;
+  SequencerRig rig(config);
+  // The IMU is 0.6 s late, so that six epochs wait.
+  for (std::int64_t ms = 20; ms <= 20'000; ms += 20) {
+    if (ms > 600) rig.sequencer.on_imu(sample_until(at_ms(ms - 600), 20 * kMs));
+    if (ms % 100 == 0) rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms)));
+    if (ms == 10'000) rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms + 5'000)));
+  }
+  CHECK(rig.sequencer.counters().epochs_without_imu == 0);
+  CHECK(rig.stages.commands.empty());
 }
 
 TEST_CASE("an IMU too late to be used is silent again some epochs after one epoch is lost") {

@@ -113,6 +113,37 @@ TEST_CASE("GNSS alone cannot change the time that IMU and GNSS keep together") {
   CHECK(rig.stages.commands.empty());
 }
 
+TEST_CASE("messages that are repeated or swapped delay no new time") {
+  const std::int64_t leap_ms = GENERATE(-3'600'000, -12'000, 6'000, 12'000, 3'600'000);
+  const bool swapped = GENERATE(false, true);
+  CAPTURE(leap_ms, swapped);
+  SequencerRig rig;
+  const std::int64_t base = 7'200'000;
+  for (int s = 0; s < 60; ++s) {
+    rig.imu(base + leap_ms + 1000 * s, base + leap_ms + 1000 * (s + 1));
+    const std::int64_t ms = base + 1000 * (s + 1);
+    if (swapped && s % 2 != 0) continue;  // came before the one before
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(swapped ? ms + 1000 : ms)));
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms)));
+  }
+  CHECK(rig.stages.commands.size() == 1);
+  CHECK(rig.stages.times_without_imu.size() > (swapped ? 20 : 40));
+}
+
+TEST_CASE("a second receiver an hour off changes nothing, however long") {
+  SequencerRig rig;
+  const std::int64_t base = 7'200'000;
+  for (int s = 0; s < 700; ++s) {
+    const std::int64_t ms = base + 1000 * s;
+    rig.imu(ms, ms + 500);
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms + 500 + 3'600'000)));
+    rig.imu(ms + 500, ms + 1000);
+    rig.sequencer.on_raw_epoch(epoch_at(at_ms(ms + 1000)));
+  }
+  CHECK(rig.stages.commands.empty());
+  CHECK(rig.rejected() == 700);
+}
+
 TEST_CASE("GNSS that contradicts IMU and past for more than five minutes is followed") {
   for (const std::int64_t leap_ms : {-3'600'000LL, -12'000LL, 12'000LL, 3'600'000LL}) {
     CAPTURE(leap_ms);
