@@ -114,8 +114,10 @@ void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, Check
     return is_good(stages->before_newest(), second - 1) && is_good(stages->newest(), second);
   };
   int last_pair = 0;  // the second of the newest epoch that has come with the one before it
+  std::uint64_t late_before = 0;  // without the last three
   for (int second = 1; second <= seconds; ++second) {
     const GpsTime begin = good.base.plus_nanoseconds((second - 1) * kSecond);
+    if (second == seconds - 2) late_before = sequencer->counters().late_epochs;
     feed_samples(begin, kSecond);
     sequencer->on_raw_epoch(epoch_of(begin.plus_nanoseconds(kSecond), 5));
     last_pair = have_come(second) ? second : have_come(second - 1) ? second - 1 : last_pair;
@@ -123,9 +125,10 @@ void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, Check
   }
   // The IMU passes the last epoch even where its stamps are taken to be later or to jitter.
   feed_samples(good.base.plus_nanoseconds(seconds * kSecond), kSecond / 2);
-  // One of the last ones may be late: the latency that a configured offset makes is as long as the
-  // longest allowance, and stamps that have jittered are laid a little off.
-  if (have_come(seconds) || last_pair >= seconds - 2) return;
+  if (have_come(seconds)) return;
+  // One of the last three may be late, not more: the latency that a configured offset makes is as
+  // long as the longest allowance, and stamps that have jittered are laid a little off.
+  if (sequencer->counters().late_epochs == late_before + 1 && last_pair >= seconds - 2) return;
   throw Finding("a dead end: after " + std::to_string(seconds) +
                 " s of good input the last two epochs have not reached the stages");
 }

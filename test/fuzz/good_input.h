@@ -48,7 +48,8 @@ GoodInput hidden_good_input(GpsTime now, std::uint64_t hash, bool is_whole);
 
 // Feeds good input until the Sequencer has had as long as its rules allow it: an epoch stamped as
 // far ahead as it accepts one (EpochStamps) is waited for, and two more must follow. Throws Finding
-// where the last two did not reach the stages with their IMU samples.
+// where the last two did not reach the stages with their IMU samples, unless one of the last three
+// was late, and two before it did.
 void require_recovery(const NavigatorConfig& config, Sequencer* sequencer, CheckedStages* stages,
                       const GoodInput& good);
 

@@ -14,8 +14,7 @@ namespace leonav::test {
 namespace {
 
 constexpr std::int64_t kUs = 1'000;
-// A script ends with the step that reaches this many inputs: longer ones take time and tell nothing
-// that shorter ones do not.
+// A script ends with the step that reaches this many inputs, because longer ones take time.
 constexpr std::int64_t kMostInputs = 2500, kMostInputsOfShort = 800;
 constexpr std::size_t kMostSteps = 200;
 

@@ -69,10 +69,7 @@ bool EpochStamps::add_late(GpsTime time, GpsTime imu_time, GpsTime last_issued) 
 }
 
 void EpochStamps::add_good(bool imu_keeps_time) {
-  rejected_.clear();
-  late_.clear();
-  far_from_imu_.clear();
-  late_for_imu_.clear();
+  end_runs();
   if (imu_keeps_time) confirms_imu_ = true;
 }
 
@@ -81,12 +78,16 @@ void EpochStamps::add_imu_sample() {
 }
 
 void EpochStamps::clear() {
+  end_runs();
+  imu_time_at_last_ = GpsTime();
+  confirms_imu_ = false;
+}
+
+void EpochStamps::end_runs() {
   rejected_.clear();
   late_.clear();
   far_from_imu_.clear();
   late_for_imu_.clear();
-  imu_time_at_last_ = GpsTime();
-  confirms_imu_ = false;
 }
 
 }  // namespace leonav

@@ -56,7 +56,8 @@ class EpochStamps {
   // Records that an epoch has fitted; with `imu_keeps_time` it confirms the time of the IMU, until
   // the next time step.
   void add_good(bool imu_keeps_time);
-  // Records an accepted IMU sample: GNSS alone cannot change a time that an epoch has confirmed.
+  // Records an accepted IMU sample. It ends the run of rejected epochs that would contradict a
+  // confirmed time while no samples come.
   void add_imu_sample();
   bool confirms_imu() const { return confirms_imu_; }
 
@@ -64,6 +65,8 @@ class EpochStamps {
   void clear();
 
  private:
+  void end_runs();
+
   std::int64_t max_ahead_ns_, max_imu_offset_ns_;
   int run_with_imu_;
   TimeStepMonitor rejected_, late_;        // runs of epochs; late_: of those that fit the IMU

@@ -7,10 +7,11 @@
 
 namespace leonav {
 
-// SteadyRun follows epochs that contradict the IMU. Where two clocks differ, the distance between
-// IMU and epoch stays. What a link held back while it stalled comes faster than it was measured:
-// that distance shrinks by more than `tolerance_ns`, and the run begins anew. So much may the
-// latency of GNSS vary. A backlog that shrinks more slowly looks like another time.
+// SteadyRun follows epochs that contradict the IMU. Where two clocks differ, the time between an
+// epoch and the newest IMU sample stays the same, but for the latency of GNSS, which may vary by
+// `tolerance_ns`. Epochs that a link held back while it stalled come faster than they were
+// measured, so that this time becomes shorter. Once it has changed by more than the tolerance, a
+// new run begins. A backlog that is sent only a little faster cannot be told from another time.
 class SteadyRun {
  public:
   SteadyRun(std::int64_t max_step_ns, std::int64_t tolerance_ns)
