@@ -1,6 +1,6 @@
 #include "daemon/threads/realtime_thread.h"
 
-#include <sched.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstring>
@@ -8,17 +8,23 @@
 #include <thread>
 #include <utility>
 
+#include "daemon/threads/process_threads.h"
+
 namespace leonav {
+
 std::string RealtimeThread::start(const std::string& name, const ThreadConfig& config,
                                   std::function<void()> body, std::size_t stack_bytes) {
   body_ = std::move(body);
   name_ = "leonav-" + name;
+  id_ = 0;
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_attr_setstacksize(&attributes, stack_bytes);
   const auto entry = [](void* self) -> void* {
     auto* thread = static_cast<RealtimeThread*>(self);
     pthread_setname_np(pthread_self(), thread->name_.c_str());
+    thread->id_ = gettid();
+    thread->id_.notify_one();
     thread->body_();
     return nullptr;
   };
@@ -30,24 +36,8 @@ std::string RealtimeThread::start(const std::string& name, const ThreadConfig& c
                              "unit, ulimit -v and -u)");
   }
   running_ = true;
-  std::string refused;
-  if (config.priority > 0) {
-    sched_param parameters{};
-    parameters.sched_priority = config.priority;
-    if (const int error = pthread_setschedparam(thread_, SCHED_FIFO, &parameters)) {
-      refused += "thread " + name + ": no SCHED_FIFO priority: " + std::strerror(error);
-    }
-  }
-  if (config.cpu >= 0) {
-    cpu_set_t cpus;
-    CPU_ZERO(&cpus);
-    CPU_SET(static_cast<unsigned>(config.cpu), &cpus);
-    if (const int error = pthread_setaffinity_np(thread_, sizeof cpus, &cpus)) {
-      refused += (refused.empty() ? "thread " : "; thread ") + name + ": not pinned to processor " +
-                 std::to_string(config.cpu) + ": " + std::strerror(error);
-    }
-  }
-  return refused;
+  id_.wait(0);
+  return schedule(id_, name, config);
 }
 
 void RealtimeThread::join() {

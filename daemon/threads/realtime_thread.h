@@ -1,7 +1,9 @@
 // A RealtimeThread has a stack of fixed size and, where the system allows it, real-time priority.
 #pragma once
 #include <pthread.h>
+#include <sys/types.h>
 
+#include <atomic>
 #include <functional>
 #include <string>
 
@@ -46,6 +48,7 @@ class RealtimeThread {
   std::function<void()> body_;
   std::string name_;
   pthread_t thread_{};
+  std::atomic<pid_t> id_{0};  // that of the system; 0: the thread has not begun
   bool running_ = false;
 };
 
