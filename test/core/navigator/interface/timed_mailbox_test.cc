@@ -64,7 +64,7 @@ TEST_CASE("who reads a result at its deadline and who takes it see the same, in 
 }
 
 TEST_CASE("of a worker and a navigator in a race exactly one wins, and the value is whole") {
-  constexpr std::uint64_t kRounds = 100'000;
+  constexpr std::uint64_t kRounds = 20'000;
   using Value = std::array<std::uint64_t, 16>;  // torn if written while read
   TimedMailbox<Value> mailbox;
   std::atomic<std::uint64_t> opened{0}, taken_rounds{0}, delivered_rounds{0};
@@ -116,7 +116,7 @@ TEST_CASE("of a worker and a navigator in a race exactly one wins, and the value
 }
 
 TEST_CASE("who feeds the worker and reads its results sees what the navigator takes, in any race") {
-  constexpr std::uint64_t kRounds = 30'000;
+  constexpr std::uint64_t kRounds = 10'000;
   using Value = std::array<std::uint64_t, 16>;
   TimedMailbox<Value> mailbox;
   std::atomic<std::uint64_t> opened{0}, fed{0}, delivered_rounds{0}, taken_rounds{0};
