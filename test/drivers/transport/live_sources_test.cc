@@ -8,11 +8,13 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "collector.h"
 #include "support/catch.h"
+#include "support/temporary_file.h"
 
 namespace leonav {
 namespace {
@@ -21,26 +23,31 @@ namespace asio = boost::asio;
 using test::Collector;
 using test::run_until;
 
-// The side of a pseudo-terminal at which a sensor would be.
+// The side of a pseudo-terminal at which a sensor would be. Its port is a link that goes when it is
+// unplugged, because another program may get the terminal's name from then on.
 class Sensor {
  public:
-  Sensor() : descriptor_(posix_openpt(O_RDWR | O_NOCTTY)) {
+  Sensor() : descriptor_(posix_openpt(O_RDWR | O_NOCTTY)), port_(folder_.beside("port")) {
     REQUIRE(descriptor_ >= 0);
     REQUIRE(grantpt(descriptor_) == 0);
     REQUIRE(unlockpt(descriptor_) == 0);
+    std::filesystem::create_symlink(ptsname(descriptor_), port_);
   }
   ~Sensor() { unplug(); }
-  std::string port() const { return ptsname(descriptor_); }
+  const std::string& port() const { return port_; }
   void send(const std::string& text) const {
     REQUIRE(write(descriptor_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
   }
   void unplug() {
+    std::filesystem::remove(port_);
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = -1;
   }
 
  private:
+  test::TemporaryFile folder_{"unused", ""};
   int descriptor_;
+  std::string port_;
 };
 
 }  // namespace
