@@ -1,5 +1,5 @@
 // Is the covariance true with carriers, ambiguities and a wet delay? As ekf_nees_test.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "core/filter/ekf.h"

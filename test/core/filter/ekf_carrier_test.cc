@@ -1,5 +1,5 @@
 // Carrier phase in the filter: ambiguities against a batch solution, and their coming and going.
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
@@ -8,6 +8,7 @@
 #include "core/filter/error_model/reflection.h"
 #include "core/filter/state/ambiguities.h"
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav {
 namespace {
@@ -43,7 +44,7 @@ TEST_CASE("a static filter with ambiguities is the batch least squares of all ep
       right += weight * row * (measurement.value - range.range_m);
     }
   }
-  const Eigen::MatrixXd covariance = normal.inverse();
+  const Eigen::MatrixXd covariance = dense::inverse(normal);
   const Eigen::VectorXd solution = covariance * right;
   const Vector3d difference = filter.state().p_e - (p0 + solution.head<3>());
   CHECK(difference.norm() < 2e-4);

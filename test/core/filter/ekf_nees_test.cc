@@ -1,6 +1,6 @@
 // Is the covariance true? Normalized estimation errors squared over 100 runs against the chi-square
 // band (Bar-Shalom, Li, Kirubarajan 2001, 5.4.2).
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 

@@ -1,9 +1,10 @@
 // What the tests of the filter's consistency share: normalized estimation errors squared (NEES)
 // over many runs (Bar-Shalom, Li, Kirubarajan 2001, 5.4.2).
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "support/dense/dense_algebra.h"
 #include "synthetic.h"
 
 namespace leonav::synthetic {
@@ -14,11 +15,7 @@ inline constexpr int kRuns = 100;
 // quantiles 253.9 and 349.9 (Wilson-Hilferty).
 inline constexpr double kLeastNees3 = 2.54, kMostNees3 = 3.50;
 
-// `P` of the error's size.
-template <typename Error, typename Covariance>
-double nees(const Error& error, const Covariance& P) {
-  return error.dot(P.ldlt().solve(error));
-}
+using dense::nees;
 
 // Moves the truth over a second of white acceleration as the constant-velocity model has it:
 // velocity and position parts with their correlation.

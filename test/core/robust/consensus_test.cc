@@ -1,10 +1,11 @@
 #include "core/robust/internal/consensus.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstdio>
 #include <random>
 
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav::test {
 
@@ -22,7 +23,8 @@ TEST_CASE("scale of the residuals of a least-squares fit is that of the errors")
           Eigen::MatrixXd::NullaryExpr(rows, kUnknowns, [&] { return normal(generator); });
       const Eigen::VectorXd errors =
           Eigen::VectorXd::NullaryExpr(rows, [&] { return kScale * normal(generator); });
-      const Eigen::VectorXd residuals = errors - design * design.householderQr().solve(errors);
+      const Eigen::VectorXd residuals =
+          errors - design * dense::least_squares(design, errors).solution;
       StandardizedResiduals standardized;
       for (const double residual : residuals) standardized.push_back(std::abs(residual));
       sum += robust_scale(&standardized, kUnknowns) / kRuns;

@@ -1,7 +1,7 @@
 // The window's own solver against dense least squares and against the filter.
 #include "core/smoother/rts_solver.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <memory>
 
 #include "core/smoother/smoother.h"

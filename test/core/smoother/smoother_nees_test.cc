@@ -30,8 +30,7 @@ template <typename Covariance>
 Eigen::Vector3d nees_of(const Errors& errors, const Covariance& covariance) {
   Eigen::Vector3d each;
   for (int i = 0; i < 3; ++i)
-    each(i) = nees(Eigen::Vector3d(errors.segment<3>(3 * i)),
-                   Eigen::Matrix3d(covariance.template block<3, 3>(3 * i, 3 * i)));
+    each(i) = nees(errors.segment<3>(3 * i), covariance.template block<3, 3>(3 * i, 3 * i));
   return each;
 }
 

@@ -1,13 +1,14 @@
 // Windows of the tests: filled keyframe by keyframe, solved by whichever solver, and by dense least
 // squares.
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "core/smoother/rts_solver.h"
 #include "core/smoother/window.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav::synthetic {
 
@@ -61,17 +62,6 @@ struct DenseStep {
   std::vector<Eigen::Index> first;  // of each keyframe
 };
 
-// A state that the process does not move gets a noise too small to tell.
-inline Eigen::MatrixXd inverse_root(Eigen::MatrixXd covariance) {
-  constexpr double kNothing = 1e-14;  // m^2
-  for (double& variance : covariance.diagonal()) variance = std::max(variance, kNothing);
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
-  Eigen::MatrixXd root = Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
-  Eigen::LLT<Eigen::MatrixXd>(scaled).matrixL().solveInPlace(root);
-  return root * scale.asDiagonal();
-}
-
 // Motion constraints: V D V^T is their information, D^(1/2) V^T its root, row by row. What the
 // information does not see it does not move, and has no row.
 inline void set_information_rows(const ProcessFactor& factor, const Keyframe& before,
@@ -81,13 +71,13 @@ inline void set_information_rows(const ProcessFactor& factor, const Keyframe& be
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(core);
   for (Eigen::Index i = 0; i < core; ++i)
     if (information(i, i) > 0.0) scale(i) = 1.0 / std::sqrt(information(i, i));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(scale.asDiagonal() * information *
-                                                             scale.asDiagonal());
+  const dense::SymmetricParts parts =
+      dense::symmetric_parts(scale.asDiagonal() * information * scale.asDiagonal());
   const EkfCorrection moved = active_part(before.active, difference(before.state, factor.from));
   for (Eigen::Index i = 0; i < core; ++i) {
-    const double size = parts.eigenvalues()(i);
+    const double size = parts.eigenvalues(i);
     if (size < 1e-12) continue;
-    const Eigen::VectorXd direction = parts.eigenvectors().col(i);
+    const Eigen::VectorXd direction = parts.eigenvectors.col(i);
     const Eigen::VectorXd root = std::sqrt(size) * direction.cwiseQuotient(scale);
     J.row(i) = root.transpose() *
                change_of_difference(before.active, before.state, factor.from).topRows(core);
@@ -127,7 +117,7 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
           R.transpose().triangularView<Eigen::Lower>().solve(window.prior().gradient) - R * moved;
     } else {
       const Keyframe& before = window.at(k - 1);
-      const Eigen::MatrixXd root = inverse_root(keyframe.process_factor.noise);
+      const Eigen::MatrixXd root = dense::whitening(keyframe.process_factor.noise);
       J.block(row, own, n, n) =
           root * change_of_difference(keyframe.active, keyframe.state, keyframe.process_factor.to);
       J.block(row, step.first[static_cast<std::size_t>(k) - 1], n, before.active.size()) =
@@ -170,13 +160,9 @@ inline DenseStep dense_step(const Window& window, const Eigen::Vector3d& lever_b
     }
   }
   step.cost = 0.5 * r.squaredNorm();
-  const Eigen::VectorXd scale = J.colwise().norm().cwiseInverse();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J * scale.asDiagonal());
-  step.correction = scale.asDiagonal() * Eigen::VectorXd(qr.solve(r));
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(states, states);
-  qr.matrixQR().topRows(states).triangularView<Eigen::Upper>().solveInPlace(inverse);
-  inverse = scale.asDiagonal() * inverse;
-  step.covariance = inverse * inverse.transpose();
+  dense::LeastSquares fit = dense::least_squares(J, r);
+  step.correction = std::move(fit.solution);
+  step.covariance = std::move(fit.covariance);
   return step;
 }
 

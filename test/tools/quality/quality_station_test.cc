@@ -1,11 +1,12 @@
 // The recorded station against programs that share nothing with the project: RTKLIB for directions
 // and geometry, a script of its own for code multipath.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <sstream>
 
 #include "core/base/angle.h"
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 #include "support/programs/program_run.h"
 #include "support/recorded/rtklib_single.h"
 #include "tools/import/dataset.h"
@@ -33,7 +34,7 @@ Dop direct_dop(const std::vector<RtklibResidual>& satellites) {
     const double a = s.azimuth_deg * kDegree, e = s.elevation_deg * kDegree;
     h.row(i) << -std::cos(e) * std::cos(a), -std::cos(e) * std::sin(a), -std::sin(e), 1.0;
   }
-  const Eigen::Matrix4d q = (h.transpose() * h).inverse();
+  const Eigen::MatrixXd q = dense::inverse(h.transpose() * h);
   return {std::sqrt(q(0, 0) + q(1, 1) + q(2, 2)), std::sqrt(q(0, 0) + q(1, 1)), std::sqrt(q(2, 2)),
           std::sqrt(q.trace())};
 }

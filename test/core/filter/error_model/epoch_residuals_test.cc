@@ -1,11 +1,12 @@
 // Residuals of an epoch's codes against least squares by QR, drawn errors and differences.
 #include "core/filter/error_model/epoch_residuals.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <random>
 
 #include "error_model/code_epoch.h"
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav {
 namespace {
@@ -59,14 +60,14 @@ TEST_CASE("residuals of codes are those of weighted least squares where no error
       codes_of(epoch, [&](std::size_t i) { return 0.4 * sigma_of(i) * normal(); }, sigma_of,
                {5.0, -80.0, 30.0});
   const Whitened system = whitened(codes);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(system.rows);
-  const Eigen::VectorXd expected = system.innovations - system.rows * qr.solve(system.innovations);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(12, 5);
+  const dense::LeastSquares fit = dense::least_squares(system.rows, system.innovations);
+  const Eigen::VectorXd expected = system.innovations - system.rows * fit.solution;
   const EpochResiduals residuals = code_residuals(codes, kVague);
   REQUIRE(residuals.size() == 12);
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double redundancy = 1.0 - q.row(k).squaredNorm();
+    const double redundancy =
+        1.0 - system.rows.row(k) * fit.covariance * system.rows.row(k).transpose();
     CHECK(residuals[i].index == i);
     CHECK(residuals[i].residual == Approx(sigma_of(i) * expected(k)).margin(1e-5));
     CHECK(residuals[i].redundancy == Approx(redundancy).margin(1e-6));

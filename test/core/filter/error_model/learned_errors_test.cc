@@ -2,12 +2,13 @@
 // it learns from errors of known size and correlation.
 #include "core/filter/error_model/learned_errors.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <random>
 
 #include "error_model/code_class.h"
 #include "error_model/code_epoch.h"
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 #include "support/start_time.h"
 
 namespace leonav {
@@ -84,7 +85,7 @@ Position fixed(const Eigen::Vector3d& off) {
 
 // Follows the codes: less the position that fits them best, so that innovations show nothing of it.
 Eigen::Vector3d followed(const Eigen::MatrixXd& rows, const Eigen::VectorXd& errors) {
-  return -Eigen::VectorXd(rows.colPivHouseholderQr().solve(errors)).head<3>();
+  return -dense::least_squares(rows, errors).solution.head<3>();
 }
 
 // Drives `errors` by minutes of codes; the filter takes its position as known to `position_sigma`.

@@ -2,10 +2,11 @@
 // once.
 #include "core/filter/update/colored_code_weighting.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 #include "support/start_time.h"
 
 using namespace leonav;
@@ -28,7 +29,7 @@ double best_information(double noise, double correlated, double time_s, double d
       R(i, j) += correlated * correlated * std::exp(-dt * std::abs(i - j) / time_s);
   }
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(count);
-  return ones.dot(R.ldlt().solve(ones));
+  return ones.dot(dense::solve_symmetric(R, ones));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // The direction in which a faulty carrier moves the state, against a numerical least-squares fit.
 #include "core/filter/update/fault_directions.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav {
 namespace {
@@ -40,7 +41,7 @@ Eigen::VectorXd fitted(const FilterMeasurements& measurements, std::size_t k) {
   }
   z(static_cast<Eigen::Index>(k)) = 1.0;
   const Eigen::MatrixXd weighted = sigma.cwiseInverse().asDiagonal() * H;
-  return weighted.colPivHouseholderQr().solve(z.cwiseQuotient(sigma));
+  return dense::least_squares(weighted, z.cwiseQuotient(sigma)).solution;
 }
 
 TEST_CASE("the direction of a faulty carrier is that of a least-squares fit") {

@@ -8,6 +8,7 @@
 #include "core/earth/rotation.h"
 #include "core/filter/state/filter_process.h"
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 #include "synthetic.h"
 
 namespace leonav {
@@ -164,7 +165,7 @@ TEST_CASE("a conditioned process tells what the measurement has told") {
   // All of [x_then, x_now], x_now about the process alone.
   Eigen::MatrixXd joint(2 * n, 2 * n);
   joint << P, P * F.transpose(), F * P, F * P * F.transpose() + N;
-  Eigen::MatrixXd information = joint.inverse();
+  Eigen::MatrixXd information = dense::inverse(joint);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2 * n);
   for (int i = 0; i < 3; ++i) {
     const EkfCorrection h = random(n, 1);
@@ -173,18 +174,18 @@ TEST_CASE("a conditioned process tells what the measurement has told") {
     information.bottomRightCorner(n, n) += h * h.transpose() / variance;
     gradient.tail(n) += h * (innovation + h.dot(filter_moved)) / variance;
   }
-  const Eigen::VectorXd expected = information.ldlt().solve(gradient);
+  const Eigen::VectorXd expected = dense::solve_symmetric(information, gradient);
 
   // x_then by the prior and what the process tells of it; x_now by the process.
-  const Eigen::MatrixXd then = P.inverse() + process.information;
-  const Eigen::VectorXd x_then = then.ldlt().solve(Eigen::VectorXd(process.gradient));
+  const Eigen::MatrixXd then = dense::inverse(P) + process.information;
+  const Eigen::VectorXd x_then = dense::solve_symmetric(then, process.gradient);
   const Eigen::VectorXd x_now =
       process.transition.leftCols(n) * x_then + process.transition.col(n) + filter_moved;
   const Eigen::MatrixXd F_new = process.transition.leftCols(n);
-  const Eigen::MatrixXd P_now = F_new * then.inverse() * F_new.transpose() + process.noise;
+  const Eigen::MatrixXd P_now = F_new * dense::inverse(then) * F_new.transpose() + process.noise;
   CHECK((x_then - expected.head(n)).cwiseAbs().maxCoeff() < 1e-9);
   CHECK((x_now - expected.tail(n)).cwiseAbs().maxCoeff() < 1e-9);
-  const Eigen::MatrixXd P_expected = information.inverse().bottomRightCorner(n, n);
+  const Eigen::MatrixXd P_expected = dense::inverse(information).bottomRightCorner(n, n);
   CHECK((P_now - P_expected).cwiseAbs().maxCoeff() < 1e-9 * P_expected.cwiseAbs().maxCoeff());
 }
 

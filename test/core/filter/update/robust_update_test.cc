@@ -1,10 +1,11 @@
 #include "core/filter/update/robust_update.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 #include "synthetic.h"
 
 namespace leonav {
@@ -75,7 +76,7 @@ TEST_CASE("ten epochs of a linear problem equal batch least squares") {
   constexpr int kEpochs = 10, kPerEpoch = 6;
   Eigen::MatrixXd A(4 + kEpochs * kPerEpoch, 4);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(A.rows());
-  A.topRows<4>() = Eigen::Matrix4d(prior.llt().matrixL()).inverse();
+  A.topRows<4>() = dense::whitening(prior);
   EkfVector x = EkfVector::Zero();
   for (int k = 0; k < kEpochs; ++k) {
     FilterMeasurements measurements;
@@ -91,17 +92,16 @@ TEST_CASE("ten epochs of a linear problem equal batch least squares") {
     }
     x += RobustUpdate{}(off(), &measurements, &P).correction;
   }
-  const Eigen::Vector4d batch = A.householderQr().solve(b);
-  const Eigen::Matrix4d covariance = (A.transpose() * A).inverse();
+  const dense::LeastSquares batch = dense::least_squares(A, b);
   Eigen::Vector4d filtered;
   filtered << x.head<3>(), x(kClock);
-  CHECK((filtered - batch).norm() < 1e-9);
+  CHECK((filtered - batch.solution).norm() < 1e-9);
   Eigen::Matrix4d got = Eigen::Matrix4d::Zero();
   got.block<3, 3>(0, 0) = P.block<3, 3>(0, 0);
   got.block<3, 1>(0, 3) = P.block<3, 1>(0, kClock);
   got.block<1, 3>(3, 0) = P.block<1, 3>(kClock, 0);
   got(3, 3) = P(kClock, kClock);
-  CHECK((got - covariance).norm() < 1e-9);
+  CHECK((got - batch.covariance).norm() < 1e-9);
 }
 
 TEST_CASE("the update equals Joseph's form and the textbook innovation statistic") {
@@ -132,12 +132,13 @@ TEST_CASE("the update equals Joseph's form and the textbook innovation statistic
   EkfCovariance P = prior;
   const RobustUpdateResult result = RobustUpdate{}(off(), &measurements, &P);
   const Eigen::MatrixXd S = H * prior * H.transpose() + R;
-  const Eigen::MatrixXd K = prior * H.transpose() * S.inverse();
+  const Eigen::MatrixXd S_inverse = dense::inverse(S);
+  const Eigen::MatrixXd K = prior * H.transpose() * S_inverse;
   const Eigen::MatrixXd IKH = Eigen::MatrixXd::Identity(kStates, kStates) - K * H;
   const Eigen::MatrixXd joseph = IKH * prior * IKH.transpose() + K * R * K.transpose();
   CHECK((P - joseph).norm() / joseph.norm() < 1e-9);
   CHECK((result.correction - K * y).norm() / (K * y).norm() < 1e-9);
-  CHECK(result.nis == Approx(y.dot(S.inverse() * y)).epsilon(1e-8));
+  CHECK(result.nis == Approx(y.dot(S_inverse * y)).epsilon(1e-8));
   CHECK((P - P.transpose()).norm() == 0.0);
 }
 

@@ -1,11 +1,12 @@
 #include "core/gnss/measurement/dop.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <memory>
 
 #include "core/base/angle.h"
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 
 using namespace leonav;
 
@@ -48,7 +49,7 @@ Dop direct(const std::vector<Direction>& sky, int systems) {
     h.block<1, 3>(i, 0) = -unit_ned(direction).transpose();
     h(i, 3 + static_cast<int>(index_of(direction.system))) = 1.0;
   }
-  const Eigen::MatrixXd q = (h.transpose() * h).inverse();
+  const Eigen::MatrixXd q = dense::inverse(h.transpose() * h);
   return {std::sqrt(q(0, 0) + q(1, 1) + q(2, 2)), std::sqrt(q(0, 0) + q(1, 1)), std::sqrt(q(2, 2)),
           std::sqrt(q.trace())};
 }

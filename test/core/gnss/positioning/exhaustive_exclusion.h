@@ -1,7 +1,7 @@
 // What the codes of one epoch can tell at all about which of them are wrong: every set of
 // satellites is left out in turn, and the rest fitted.
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "core/gnss/measurement/measurement.h"
 #include "core/gnss/measurement/range_model.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav::test {
 
@@ -57,11 +58,10 @@ class CodeProblem {
       values(next++) = values_[i];
     }
     // A system that nothing observes gives a column of zeros, which does not count in the rank.
-    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(design);
-    if (decomposition.rank() >= count) return std::nullopt;
-    const Eigen::VectorXd solution = decomposition.solve(values);
-    return Fit{(values - design * solution).squaredNorm(),
-               static_cast<int>(count - decomposition.rank()), solution.head<3>()};
+    const dense::ShortestFit fit = dense::shortest_fit(design, values);
+    if (fit.rank >= count) return std::nullopt;
+    return Fit{(values - design * fit.solution).squaredNorm(), static_cast<int>(count - fit.rank),
+               fit.solution.head<3>()};
   }
 
   // Whether no method can tell that `wrong` (three satellites) are: fewer errors explain the data

@@ -1,7 +1,7 @@
 // The hypotheses of satellites and systems, against a least-squares fit of drawn carriers.
 #include "core/navigator/monitors/satellite_fault_hypotheses.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,6 +11,7 @@
 #include "core/base/square.h"
 #include "core/earth/ellipsoid.h"
 #include "support/catch.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav {
 namespace {
@@ -86,7 +87,7 @@ struct Update {
     Eigen::VectorXd z = Eigen::VectorXd::Zero(kCarriers);
     z(i) = range_m;
     return rotation_ecef_to_ned(to_geodetic(estimate.p_e)) *
-           H.colPivHouseholderQr().solve(z).head<3>();
+           dense::least_squares(H, z).solution.head<3>();
   }
   FaultHypotheses hypotheses(const IntegrityConfig& config = {}) const {
     return satellite_fault_hypotheses(monitor, *epoch, measurements, ambiguities, estimate, config);

@@ -70,9 +70,7 @@ Consistency run(const DriveOptions& base, bool inertial_factors) {
       if (looked == kLooked.end()) continue;
       for (Index part = 0; part < parts; ++part)
         sum.nees(looked - kLooked.begin(), part) +=
-            nees(Vector3d(error.segment<3>(3 * part)),
-                 Eigen::Matrix3d(P.block<3, 3>(3 * part, 3 * part))) /
-            kDrives;
+            nees(error.segment<3>(3 * part), P.block<3, 3>(3 * part, 3 * part)) / kDrives;
     }
   }
   constexpr int kEach = kDrives * kEpochs;

@@ -1,11 +1,12 @@
 // A whole log as one problem of whitened rows, solved by QR: what the chain must come to.
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
 #include "core/smoother/batch/log_graph.h"
 #include "core/smoother/linearization.h"
+#include "support/dense/dense_algebra.h"
 
 namespace leonav::synthetic {
 
@@ -84,13 +85,13 @@ class DenseRows {
     constexpr double kNothing = 1e-13;  // times the largest eigenvalue
     const Eigen::VectorXd scale =
         information.diagonal().unaryExpr([](double x) { return x > 0.0 ? std::sqrt(x) : 1.0; });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(
+    const dense::SymmetricParts parts = dense::symmetric_parts(
         scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal());
-    const Eigen::VectorXd& values = parts.eigenvalues();
+    const Eigen::VectorXd& values = parts.eigenvalues;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       if (!(values(i) > kNothing * values.maxCoeff())) continue;
       const double sigma = std::sqrt(values(i));
-      const Eigen::VectorXd direction = parts.eigenvectors().col(i);
+      const Eigen::VectorXd direction = parts.eigenvectors.col(i);
       const Eigen::RowVectorXd root = sigma * direction.cwiseProduct(scale).transpose();
       Eigen::VectorXd value(1);
       value(0) = direction.dot(scale.cwiseInverse().cwiseProduct(gradient)) / sigma - root * moved;
@@ -101,14 +102,9 @@ class DenseRows {
     }
   }
   void solve(DenseLog* log) const {
-    const auto rows = matrix_.topRows(used_);
-    const Eigen::VectorXd scale = rows.colwise().norm().cwiseInverse();
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows * scale.asDiagonal());
-    log->correction = scale.asDiagonal() * Eigen::VectorXd(qr.solve(value_.head(used_)));
-    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(states_, states_);
-    qr.matrixQR().topRows(states_).triangularView<Eigen::Upper>().solveInPlace(inverse);
-    inverse = scale.asDiagonal() * inverse;
-    log->covariance = inverse * inverse.transpose();
+    dense::LeastSquares fit = dense::least_squares(matrix_.topRows(used_), value_.head(used_));
+    log->correction = std::move(fit.solution);
+    log->covariance = std::move(fit.covariance);
   }
 
  private:
@@ -117,23 +113,12 @@ class DenseRows {
   Eigen::VectorXd value_;
 };
 
-// The inverse of a noise's own root; a state that is not moved gets a noise too small to tell.
-inline Eigen::MatrixXd whitening(Eigen::MatrixXd noise) {
-  constexpr double kNothing = 1e-14;
-  for (double& variance : noise.diagonal()) variance = std::max(variance, kNothing);
-  const Eigen::VectorXd scale = noise.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * noise * scale.asDiagonal();
-  Eigen::MatrixXd root = Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols());
-  Eigen::LLT<Eigen::MatrixXd>(scaled).matrixL().solveInPlace(root);
-  return root * scale.asDiagonal();
-}
-
 inline void add_process_rows(const LogGraph& graph, int k, const DenseLog& log, DenseRows* rows) {
   const LogKeyframe& before = graph.at(k - 1);
   const LogKeyframe& keyframe = graph.at(k);
   const LogProcess& process = keyframe.process;
   const Eigen::Index first_before = log.first[static_cast<std::size_t>(k) - 1];
-  const Eigen::MatrixXd root = whitening(process.noise);
+  const Eigen::MatrixXd root = dense::whitening(process.noise);
   const Eigen::VectorXd to = active_part(keyframe.active, difference(keyframe.state, process.to));
   const Eigen::VectorXd from = active_part(before.active, difference(before.state, process.from));
   const Eigen::MatrixXd slope_before = slope_of_difference(before, before.state, process.from);
