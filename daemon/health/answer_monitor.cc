@@ -46,9 +46,12 @@ bool AnswerMonitor::stands_still() {
   const bool uses_satellites =
       std::any_of(counters.satellites_used.begin(), counters.satellites_used.end(),
                   [](const Gauge& used) { return used.get() > 0; });
-  if (is_new || solution_ns == 0 || !has_imu || !uses_satellites) {
+  seconds_without_imu_ = uses_imu ? 0 : seconds_without_imu_ + 1;
+  const bool gnss_alone = !has_imu && seconds_without_imu_ > kLongestPause_s;
+  if (is_new || solution_ns == 0 || !(has_imu || gnss_alone) || !uses_satellites) {
     looks_ = 0;
-  } else if (has_epoch) {  // a look without says nothing: epochs may come more rarely than looks
+  } else if (gnss_alone ? uses_epoch : has_epoch) {  // a look without says nothing: epochs may come
+                                                     // more rarely than looks
     ++looks_;
   }
   return looks_ >= most_looks_;

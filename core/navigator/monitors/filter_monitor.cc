@@ -251,13 +251,21 @@ std::array<std::optional<double>, 2> FilterMonitor::add_consistency(const EkfUpd
   return improbable;
 }
 
-void FilterMonitor::filter_restarted(GpsTime time, bool time_begins_anew) {
+void FilterMonitor::filter_restarted(GpsTime time) {
+  clear_evidence();
+  last_reset_time_ = time;
+}
+
+void FilterMonitor::time_begins_anew() {
+  clear_evidence();
+  last_reset_time_ = last_rejection_restart_ = GpsTime();
+}
+
+void FilterMonitor::clear_evidence() {
   contradicted_epochs_ = 0;
   rejection_monitor_.reset();
   displacement_evidence_ = 0.0;
   mean_displacement_e_.setZero();
-  last_reset_time_ = time_begins_anew ? GpsTime() : time;
-  if (time_begins_anew) last_rejection_restart_ = GpsTime();
 }
 
 }  // namespace leonav

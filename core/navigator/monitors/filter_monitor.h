@@ -43,7 +43,7 @@ struct FilterEvidence {
 };
 
 // FilterMonitor returns verdicts and changes nothing but its own evidence. The caller acts on a
-// verdict and then calls filter_restarted(). After an update call the three tests in the order
+// verdict and then calls one of the last three. After an update call the three tests in the order
 // test_prediction, test_rejections, test_position, until one has restarted the filter: a test must
 // not decide about a filter by the update of another one.
 class FilterMonitor {
@@ -79,11 +79,14 @@ class FilterMonitor {
   // if it has just become improbable (ConsistencyMonitor), else nullopt.
   std::array<std::optional<double>, 2> add_consistency(const EkfUpdateResult& update);
 
-  // Records that the filter was restarted or dropped at `time`, and clears the evidence of the
-  // three tests, which is void for the next filter. With `time_begins_anew` it forgets this reset
-  // and the last restart by test_rejections(), because the times to come cannot be compared with
-  // theirs. The means of add_consistency() go on: wrong sigmas of a receiver outlive a filter.
-  void filter_restarted(GpsTime time, bool time_begins_anew);
+  // Records that the filter was restarted or dropped at `time`, and clears the evidence.
+  void filter_restarted(GpsTime time);
+  // The same where time begins anew: forgets this reset and the last restart by test_rejections(),
+  // because the times to come cannot be compared with theirs.
+  void time_begins_anew();
+  // Clears the evidence of the three tests, which is void for another filter. The means of
+  // add_consistency() go on: wrong sigmas of a receiver outlive a filter.
+  void clear_evidence();
 
  private:
   FilterVerdict restart_from(const PointSolution& point, ResetCause cause, const Ekf& filter,

@@ -57,7 +57,9 @@ enum class SequencerCapacity : std::uint8_t {
 //   EmptyEpochSchedule::kMaxGnssLatencyNs; so a steady latency costs the epochs that are under way
 //   until then, and not all.
 // - An epoch not later than the last issued one is late: it is counted, dropped and reported. One
-//   that is only out of order takes its place among those waiting.
+//   that is only out of order takes its place among those waiting. Where no IMU keeps time,
+//   EpochStamps::kRunToRestart late ones in a row, over more than kLateRunNs, are a clock that was
+//   set back: everything restarts. Old epochs that are sent again look the same.
 // - IMU stamps are shifted by the configured time offset before anything else is done.
 // - IMU samples must be finite, in range and increasing (kTimeBackwards). A sensor that repeats its
 //   values is frozen (kNotSane, FrozenImuMonitor): until they change, there is a gap. Where their

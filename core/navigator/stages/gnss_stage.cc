@@ -354,7 +354,12 @@ void GnssStage::reset(const ResetPlan& plan, GpsTime time, ResetCause cause, dou
   const bool found_wrong =
       attitude_lost && cause != ResetCause::kCommand && cause != ResetCause::kNotFinite;
   if (found_wrong || cause == ResetCause::kTimeBase) pending_keyframe_.end_window();
-  filter_monitor_.filter_restarted(time, plan.clears_times);
+  if (plan.clears_times)
+    filter_monitor_.time_begins_anew();
+  else if (plan.filter == FilterReset::kForgetAttitude)
+    filter_monitor_.clear_evidence();  // the filter goes on, and nothing of it was found wrong
+  else
+    filter_monitor_.filter_restarted(time);
   satellite_faults_.filter_restarted(plan.clears_times);
   fault_hypotheses_.clear();
   if (plan.clears_times) last_gnss_time_ = GpsTime();

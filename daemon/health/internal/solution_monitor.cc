@@ -15,14 +15,20 @@ constexpr double kShortestSolutionGap_s = 2.0;  // a pause of `main` must not co
 constexpr double kAnswerLife_s = 10.0;
 constexpr double kIntervalsUntilFault = 10.0;
 
+SignOfLife answer_each(double interval_s) {
+  return SignOfLife(std::max(kShortestSolutionGap_s, kIntervalsTolerated * interval_s),
+                    std::max(kAnswerLife_s, kIntervalsUntilFault * interval_s));
+}
+
 }  // namespace
 
 SolutionMonitor::SolutionMonitor(const EngineCounters* counters, const NavigatorConfig& config)
     : counters_(counters),
       alignment_(config.alignment),
       expects_imu_(config.motion == MotionModel::kInertial),
-      solution_(std::max(kShortestSolutionGap_s, kIntervalsTolerated * solution_interval(config)),
-                std::max(kAnswerLife_s, kIntervalsUntilFault * solution_interval(config))),
+      solution_(answer_each(solution_interval(config))),
+      solution_without_imu_(
+          answer_each(std::max(solution_interval(config), config.realtime.epoch_interval_s))),
       levels_(config.integrity) {
   detail_.reserve(kDetailBytes);
 }
@@ -38,12 +44,15 @@ std::span<const Finding> SolutionMonitor::look(double now_s, InputMonitor* input
     return found_.get();
   }
   solution_.look(counters_->solution_time_ns.get(), now_s);
-  if (solution_.has_ended()) {  // then the last source means nothing
+  solution_without_imu_.look(counters_->solution_time_ns.get(), now_s);
+  const SignOfLife& solution = inputs->lacks_imu() ? solution_without_imu_ : solution_;
+  has_ended_ = solution.has_ended();
+  if (has_ended_) {  // then the last source means nothing
     found_.add(HealthReason::kSolutionEnded);
     return found_.get();
   }
   fault_ = Fault::kNone;
-  if (solution_.is_late()) found_.add(HealthReason::kSolutionLate);
+  if (solution.is_late()) found_.add(HealthReason::kSolutionLate);
   if (source == Source::kAligning) {
     // Between an attitude and the first answer with it nothing lacks any more.
     const AlignmentNeed need = unpack_alignment_need(counters_->alignment_need.get());
@@ -60,7 +69,7 @@ std::span<const Finding> SolutionMonitor::look(double now_s, InputMonitor* input
 }
 
 Source SolutionMonitor::source() const {
-  return solution_.has_ended() ? Source::kNone : static_cast<Source>(counters_->source.get());
+  return has_ended_ ? Source::kNone : static_cast<Source>(counters_->source.get());
 }
 
 std::string_view SolutionMonitor::why_no_solution(InputMonitor* inputs,

@@ -37,6 +37,8 @@ class SolutionMonitor {
   AlignmentConfig alignment_;
   bool expects_imu_;
   SignOfLife solution_;
+  SignOfLife solution_without_imu_;  // the same answer, where it comes once an epoch
+  bool has_ended_ = false;           // at the last look
   LevelTest levels_;
   Fault fault_ = Fault::kNone;
   std::string detail_;  // of the reason that is looked at

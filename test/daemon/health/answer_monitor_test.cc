@@ -41,9 +41,8 @@ class Looks {
     reject(Channel::kGnssEpoch, fault, 1);
     return look();
   }
-  bool look_rejecting_imu(InputFault fault) {
-    receive(200, 1);
-    engine_.counters().accepted_epochs.add(1);
+  bool look_rejecting_imu_alone(InputFault fault) {
+    receive(200, 0);
     reject(Channel::kImu, fault, 200);
     return look();
   }
@@ -121,18 +120,39 @@ TEST_CASE("without an IMU, epochs that are all too late are found as those of a 
   CHECK(found);
 }
 
-TEST_CASE("one stream that is used and another of another time are nothing that a restart mends") {
+TEST_CASE("an IMU that is used and epochs of another time are nothing that a restart mends") {
   for (const InputFault fault : {InputFault::kTimeBackwards, InputFault::kTooFarAhead}) {
-    Looks imu, epochs, late;
-    for (Looks* looks : {&imu, &epochs, &late}) looks->look(true, true);
+    Looks imu, late;
+    for (Looks* looks : {&imu, &late}) looks->look(true, true);
     for (int second = 0; second < 200; ++second) {
       CHECK_FALSE(imu.look_rejecting_epochs(fault));
-      CHECK_FALSE(epochs.look_rejecting_imu(fault));
       late.counters().accepted_imu.add(200);
       late.counters().late_epochs.add(1);
       CHECK_FALSE(late.look());
     }
   }
+}
+
+TEST_CASE(
+    "an answer of GNSS alone that stands still is found a minute after the IMU counts as gone") {
+  // The epochs come each `every` seconds, the IMU does not come or is of another time.
+  const int every = GENERATE(1, 10);
+  const bool other_time = GENERATE(false, true);
+  CAPTURE(every, other_time);
+  Looks stands, goes_on;
+  for (Looks* looks : {&stands, &goes_on}) looks->look(true, true);
+  const auto look = [&](int second, Looks* looks) {
+    if (second % every == 0) looks->counters().accepted_epochs.add(1);
+    return other_time ? looks->look_rejecting_imu_alone(InputFault::kTooFarAhead) : looks->look();
+  };
+  int found = 0;
+  for (int second = 1; second <= 1000 && found == 0; ++second) {
+    if (look(second, &stands)) found = second;
+    if (second % every == 0) goes_on.counters().solution_time_ns.add(1'000'000'000);
+    CHECK_FALSE(look(second, &goes_on));
+  }
+  CHECK(found >= 60 + 60 * every);
+  CHECK(found <= 61 + 61 * every);
 }
 
 TEST_CASE("no answer without inputs or satellites is nothing that a restart mends") {

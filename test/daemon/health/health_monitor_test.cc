@@ -26,13 +26,14 @@ using test::Discard;
 class Watched {
  public:
   explicit Watched(MotionModel motion, bool odometer = false, const IntegrityConfig& integrity = {},
-                   const std::string& journal = "", DiskHook hook = {}) {
+                   const std::string& journal = "", DiskHook hook = {},
+                   double epoch_interval_s = 1.0) {
     DaemonConfig config = test::drive_config();
     config.journal.path = journal;
     config.navigator.integrity = integrity;
     config.navigator.vehicle.motion.constraints.odometer = odometer;
     config.navigator.motion = motion;
-    REQUIRE(config.navigator.realtime.epoch_interval_s == 1.0);
+    config.navigator.realtime.epoch_interval_s = epoch_interval_s;
     EngineHooks hooks;
     hooks.disk_call = std::move(hook);
     engine_ = std::make_unique<Engine>(config, &target_, std::move(hooks));
@@ -129,6 +130,20 @@ TEST_CASE("an IMU that dies: degraded after a second, a fault when the answer is
   CHECK(watched.at(61.0) == "DEGRADED: " + kNoImu);
   CHECK(watched.at(65.0) == "DEGRADED: " + kLate + "; " + kNoImu + "; " + kNoGnss);
   CHECK(watched.at(71.0) == "FAULT: " + kEnded + "; " + kNoImu + "; " + kNoGnss);
+}
+
+TEST_CASE("without its IMU an answer is late, and ended, by the interval of the epochs") {
+  Watched watched(MotionModel::kInertial, false, {}, "", {}, 5.0);
+  watched.feed(all_but_imu);
+  const auto says = [&](const std::string& reason, double now_s) {
+    return watched.at(now_s).find(reason) != std::string::npos;
+  };
+  CHECK(says("aligning (no IMU sample is used)", 60.0));
+  CHECK_FALSE(says(kLate, 72.4));
+  CHECK(says(kLate, 72.6));
+  CHECK_FALSE(says(kEnded, 109.9));
+  CHECK(watched.fault() == Fault::kNone);
+  CHECK(says(kEnded, 110.1));
 }
 
 TEST_CASE("GNSS that dies beside an IMU is reported by its own name; the answer goes on degraded") {

@@ -18,7 +18,7 @@ enum class CarrierReset : unsigned char {
 };
 
 // A part that is marked false is not cleared. In addition every reset clears the evidence of
-// FilterMonitor's tests (FilterMonitor::filter_restarted) and the sums of SatelliteFaultMonitor,
+// FilterMonitor's tests (FilterMonitor::clear_evidence) and the sums of SatelliteFaultMonitor,
 // because they are void for the next filter. Satellites that are left out stay so, unless
 // clears_times is set.
 //
@@ -48,7 +48,8 @@ struct ResetPlan {
   bool clears_outage_monitor = false;
   bool clears_installation_monitor = false;
   // The times of the last GNSS, the last reset and the last restart by rejections become unset.
-  // Otherwise they are kept, and this reset becomes the last one.
+  // Otherwise they are kept, and this reset becomes the last one, unless it only forgets the
+  // attitude.
   bool clears_times = false;
   // Not a part of the stage: the epoch of the reset counts as one that used satellites.
   bool counts_as_gnss_epoch = false;
@@ -61,7 +62,8 @@ struct ResetPlan {
 // - those whose difference is limited, so that a leap counts as one interval: in test_position(),
 //   MeasurementRejectionMonitor and ReceiverCodeBiases;
 // - those whose leap ahead counts as a gap in the IMU samples, which ends trust in a heading of
-//   before: in CheckpointValidityMonitor and ExternalHeading.
+//   before: in CheckpointValidityMonitor and ExternalHeading; and in ImuGapMonitor, which finds no
+//   attitude to end then.
 inline constexpr ResetPlan kCommandReset = {.filter = FilterReset::kReset,
                                             .carriers = CarrierReset::kAll,
                                             .clears_alignment = true,

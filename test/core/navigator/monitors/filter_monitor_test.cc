@@ -150,7 +150,7 @@ TEST_CASE("a second restart soon after the first gives up attitude and vehicle c
   CHECK(first.cause == ResetCause::kOutage);
   CHECK(first.keeps_attitude);
   CHECK(first.keeps_vehicle_constants);
-  monitor.filter_restarted(test::kBeginOfWeek, false);
+  monitor.filter_restarted(test::kBeginOfWeek);
   const FilterVerdict second =
       monitor.restart_after_outage(point, filter, test::kBeginOfWeek.plus_seconds(1.0));
   CHECK_FALSE(second.keeps_attitude);
@@ -158,6 +158,18 @@ TEST_CASE("a second restart soon after the first gives up attitude and vehicle c
   const FilterVerdict later =
       monitor.restart_after_outage(point, filter, test::kBeginOfWeek.plus_seconds(3600.0));
   CHECK(later.keeps_attitude);
+}
+
+TEST_CASE("a restart soon after evidence was cleared for another cause is the first one") {
+  Ekf filter = filter_at(place());
+  filter.set_attitude(Eigen::Quaterniond::Identity(), Vector3d::Constant(0.01), Vector3d::Zero(),
+                      1e-4);
+  FilterMonitor monitor{NavigatorConfig()};
+  monitor.clear_evidence();
+  const FilterVerdict verdict =
+      monitor.restart_after_outage(point_at(place()), filter, test::kBeginOfWeek.plus_seconds(1.0));
+  CHECK(verdict.keeps_attitude);
+  CHECK(verdict.keeps_vehicle_constants);
 }
 
 TEST_CASE("a filter 15 m off where its carriers hold it restarts at what all codes agree on") {

@@ -60,6 +60,21 @@ TEST_CASE("a second wrong prediction within a minute gives up the attitude too")
   CHECK(sink.epochs.back().solution.has_attitude);
 }
 
+TEST_CASE("a wrong prediction soon after a gap of the IMU is the first one: the attitude is kept") {
+  SyntheticDrive drive = carried_away(120.0, 80.0, 3'000.0);
+  std::erase_if(drive.imu, [](const ImuSample& sample) {
+    return seconds(sample.time) > 40.0 && seconds(sample.time) < 44.0;
+  });
+  NavigatorConfig config = drive_navigator_config(drive.options, MotionModel::kInertial);
+  config.ekf.prediction_suspect_ratio = kNeverWiden;
+  const RecordingSink sink = run(drive, config);
+  CHECK(resets(sink) == std::vector<ResetCause>{ResetCause::kImuGap, ResetCause::kPrediction});
+  CHECK(sink.count(EventKind::kAligned) == 2);
+  for (const EpochReport& report : sink.epochs) {
+    if (seconds(report.time) > 82.5) CHECK(report.solution.has_attitude);
+  }
+}
+
 TEST_CASE("without robust weights a vehicle carried away is found again, widening or restarting") {
   const SyntheticDrive there = drive_of(120.0, 3'000.0);
   const SyntheticDrive drive = carried_away(120.0, 60.0, 3'000.0);
