@@ -43,7 +43,7 @@ struct FilterEvidence {
 };
 
 // FilterMonitor returns verdicts and changes nothing but its own evidence. The caller acts on a
-// verdict and then calls one of the last three. After an update call the three tests in the order
+// verdict and then calls filter_restarted(). After an update call the three tests in the order
 // test_prediction, test_rejections, test_position, until one has restarted the filter: a test must
 // not decide about a filter by the update of another one.
 class FilterMonitor {
@@ -81,11 +81,11 @@ class FilterMonitor {
 
   // Records that the filter was restarted or dropped at `time`, and clears the evidence.
   void filter_restarted(GpsTime time);
-  // The same where time begins anew: forgets this reset and the last restart by test_rejections(),
-  // because the times to come cannot be compared with theirs.
+  // Clears the evidence, and forgets when the filter was last restarted: a new time base has begun,
+  // and its times cannot be compared with earlier ones.
   void time_begins_anew();
-  // Clears the evidence of the three tests, which is void for another filter. The means of
-  // add_consistency() go on: wrong sigmas of a receiver outlive a filter.
+  // Clears the evidence that the three tests have collected about the filter as it was. The means
+  // of add_consistency() stay, because they tell of the receiver and not of the filter.
   void clear_evidence();
 
  private:

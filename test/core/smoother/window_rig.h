@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/smoother/rts_solver.h"
